@@ -1,0 +1,129 @@
+# make               build/facet, the renderer
+# make chapter-4     the pictures of chapter 4, each compared with the book's
+# make figures       those of all chapters
+# make bless-4       accept chapter 4's new pictures as the book's (look first)
+# make test          every test; ends in prove's summary
+# make bench         measurements that depend on the machine
+# make weave         refresh the listings of the chapters from the source
+# make book          the HTML book, build/book/index.html
+# make format        lay out the source with clang-format 14
+# make install       PREFIX (/usr/local), DESTDIR
+# make clean         remove build/
+
+CC      ?= cc
+CFLAGS  ?= -O2 -g
+PREFIX  ?= /usr/local
+WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion \
+           -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
+# No -ffast-math and no contraction: one source, one image, on every machine.
+FLAGS   := -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) -ffp-contract=off -Isrc
+LIBS    := -lpng -ljpeg -lm -lpthread
+# make SAN=address,undefined puts a second build beside the first.
+comma   := ,
+B       := build/$(or $(subst $(comma),-,$(SAN)),$(VARIANT),release)
+ifdef SAN
+FLAGS   += -fsanitize=$(SAN) -fno-omit-frame-pointer -fno-sanitize-recover=all
+endif
+
+# The floors of src/, ground first: also the reading order of the book.  A
+# module includes only modules on its left or above (tests/floors.t), and the
+# program of a chapter links only the modules that it and the chapters before
+# it explain: the linker proves the reading order.
+CHAPTER_1 := vec error arena report image png pfm hdr jpeg tga picture metric
+CHAPTER_2 := $(CHAPTER_1) pool number text path_find polygon mesh mtl obj normals
+CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material scene
+CHAPTER_4 := $(CHAPTER_3) aabb bvh
+CHAPTER_8 := $(CHAPTER_4) surface
+CHAPTER_9 := $(CHAPTER_8) rng bsdf path_naive render
+LIBRARY   := $(CHAPTER_9)
+CHAPTERS  := 1 2 3 4 8 9
+# The command line, the only floor that prints and exits.
+COMMAND   := main
+MODULES   := $(LIBRARY) $(COMMAND)
+
+# Objects of those modules that have a .c; the folder of chapter N.
+obj  = $(patsubst src/%.c,$(B)/src/%.o,$(wildcard $(1:%=src/%.c)))
+slug = $(notdir $(wildcard chapters/$(shell printf %02d $(1))-*))
+
+all: build/facet
+
+ifeq ($(B),build/release)
+build/facet: $(B)/facet
+	ln -f $< $@
+endif
+
+$(B)/facet: $(call obj,$(MODULES))
+	$(CC) $(FLAGS) $(CFLAGS) $^ $(LIBS) -o $@
+
+$(B)/%.o: %.c Makefile
+	@mkdir -p $(@D)
+	$(CC) $(FLAGS) $(CFLAGS) -MMD -MP -c $< -o $@
+
+# A chapter's program writes its pictures into the folder that it is given.
+define chapter_rules
+$(B)/chapter-$(1): $(B)/chapters/$(call slug,$(1))/figures.o \
+                   $(call obj,$(CHAPTER_$(1)))
+	$$(CC) $$(FLAGS) $$(CFLAGS) $$^ $$(LIBS) -o $$@
+chapter-$(1): $(B)/chapter-$(1) build/facet
+	@mkdir -p build/figures/$(call slug,$(1))
+	$(B)/chapter-$(1) build/figures/$(call slug,$(1))
+	@tests/figures.sh $(call slug,$(1))
+bless-$(1): $(B)/chapter-$(1)
+	@mkdir -p build/figures/$(call slug,$(1)) chapters/$(call slug,$(1))/images
+	$(B)/chapter-$(1) build/figures/$(call slug,$(1))
+	cp build/figures/$(call slug,$(1))/*.png chapters/$(call slug,$(1))/images/
+endef
+$(foreach n,$(CHAPTERS),$(eval $(call chapter_rules,$(n))))
+
+figures: $(CHAPTERS:%=chapter-%)
+
+weave:
+	python3 chapters/weave.py update
+
+# Unit tests are cmocka programs, one per tests/test_*.c, linked with all but
+# main; the rest are shell scripts.  All print TAP.
+UNIT := $(patsubst tests/%.c,$(B)/tests/%,$(wildcard tests/test_*.c))
+$(UNIT): $(B)/tests/%: $(B)/tests/%.o $(call obj,$(filter-out main,$(MODULES)))
+	$(CC) $(FLAGS) $(CFLAGS) $^ -lcmocka $(LIBS) -o $@
+.PRECIOUS: $(B)/tests/%.o
+
+unit: $(UNIT)
+build-tests: all unit $(CHAPTERS:%=$(B)/chapter-%)
+test: build-tests
+	+$(MAKE) --no-print-directory SAN=address,undefined \
+	  build/address-undefined/facet unit
+	CMOCKA_MESSAGE_OUTPUT=TAP MODULES="$(MODULES)" CC="$(CC)" \
+	  CHAPTERS="$(CHAPTERS)" prove --timer -j 2 -e '' tests/*.t $(UNIT)
+
+bench: all
+	tests/bench/run
+
+BOOK := $(patsubst chapters/%/README.md,build/book/%.html,\
+          $(wildcard chapters/*/README.md)) build/book/index.html
+book: $(BOOK)
+build/book/index.tsv: $(wildcard chapters/*/README.md) $(wildcard src/*.[ch])
+	@mkdir -p $(@D)
+	python3 chapters/weave.py index > $@
+build/book/index.html: chapters/README.md build/book/index.tsv
+	$(call pandoc,facet)
+build/book/%.html: chapters/%/README.md chapters/book.lua build/book/index.tsv
+	@mkdir -p build/book/images && cp -r chapters/$*/images build/book/$*-images
+	$(call pandoc,$*)
+pandoc = pandoc -f gfm+footnotes -t html5 --mathml -s -M index=build/book/index.tsv \
+  -M pagetitle=$(1) -M chapter=$(1) --css book.css --lua-filter chapters/book.lua \
+  $< -o $@ && cp chapters/book.css build/book/
+
+format:
+	clang-format-14 -i src/*.[ch] tests/*.c chapters/*/figures.c
+
+install: all
+	install -D build/facet $(DESTDIR)$(PREFIX)/bin/facet
+	install -d $(DESTDIR)$(PREFIX)/share/facet/scenes
+	cp scenes/* $(DESTDIR)$(PREFIX)/share/facet/scenes/
+
+clean:
+	rm -rf build
+
+.PHONY: all figures weave unit build-tests test bench book format install clean \
+        $(CHAPTERS:%=chapter-%) $(CHAPTERS:%=bless-%)
+-include $(shell find build -name '*.d' 2>/dev/null)

@@ -1,0 +1,101 @@
+// arena.c
+
+#include "arena.h"
+
+#include <stdalign.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Small requests share a block of this many bytes; larger ones get their own.
+enum { BLOCK_BYTES = 1 << 16 };
+
+// The bytes follow the header; `used` counts them.
+struct arena_block {
+  arena_block *next;
+  size_t used, size;
+  max_align_t bytes[];
+};
+
+// The one way out when memory is gone: exit status 5 is documented.
+static _Noreturn void out_of_memory(size_t n, size_t size) {
+  fprintf(stderr, "facet: out of memory for %zu x %zu bytes\n", n, size);
+  exit(5);
+}
+
+void *arena_alloc(arena *a, size_t n, size_t size) {
+  if (size != 0 && n > (SIZE_MAX / 2) / size) out_of_memory(n, size);
+  size_t align = alignof(max_align_t);
+  size_t bytes = (n * size + align - 1) / align * align;
+  arena_block *block = a->top;
+  if (block == NULL || block->size - block->used < bytes) {
+    bool own = bytes > BLOCK_BYTES / 4;
+    size_t room = own ? bytes : BLOCK_BYTES;
+    block = calloc(1, sizeof *block + room);
+    if (block == NULL) out_of_memory(n, size);
+    block->size = room;
+    if (own && a->top != NULL) {
+      // Behind the top, which still has room for small requests.
+      block->next = a->top->next;
+      a->top->next = block;
+    } else {
+      block->next = a->top;
+      a->top = block;
+    }
+  }
+  void *p = (char *)block->bytes + block->used;
+  block->used += bytes;
+  return p;
+}
+
+void arena_free(arena *a) {
+  for (arena_block *b = a->top, *next; b != NULL; b = next) {
+    next = b->next;
+    free(b);
+  }
+  *a = (arena){0};
+}
+
+void arena_adopt(arena *to, arena *from) {
+  arena_block **end = &from->top;
+  while (*end != NULL)
+    end = &(*end)->next;
+  *end = to->top;
+  to->top = from->top;
+  *from = (arena){0};
+}
+
+char *arena_text(arena *a, const char *s, size_t n) {
+  char *copy = arena_alloc(a, n + 1, 1);
+  if (n > 0) memcpy(copy, s, n);
+  return copy;
+}
+
+char *arena_format(arena *a, const char *format, ...) {
+  va_list args, again;
+  va_start(args, format);
+  va_copy(again, args);
+  int n = vsnprintf(NULL, 0, format, args);
+  va_end(args);
+  char *text = arena_alloc(a, (size_t)(n < 0 ? 0 : n) + 1, 1);
+  if (n > 0) vsnprintf(text, (size_t)n + 1, format, again);
+  va_end(again);
+  return text;
+}
+
+void *array_grow(void *old, size_t *room, size_t need, size_t size) {
+  if (need <= *room) return old;
+  size_t more = *room * 2 > need ? *room * 2 : need;
+  if (more < 16) more = 16;
+  if (more > (SIZE_MAX / 2) / size) out_of_memory(more, size);
+  void *array = realloc(old, more * size);
+  if (array == NULL) out_of_memory(more, size);
+  *room = more;
+  return array;
+}
+
+void array_free(void *array) {
+  free(array);
+}

@@ -1,0 +1,35 @@
+// env.h — the light that comes from everywhere.
+
+#ifndef ENV_H
+#define ENV_H
+
+#include "error.h"
+#include "image.h"
+#include "report.h"
+
+typedef enum env_kind { ENV_NONE, ENV_CONSTANT, ENV_SKY, ENV_MAP } env_kind;
+
+// Distant radiance by direction.  A map is equirectangular: row 0 is +Y, its
+// centre -Z, u grows towards +X; ENV_SKY is a built-in closed form with a broad
+// sun.
+typedef struct env {
+  env_kind kind;
+  vec3 constant;
+  image map;
+  float rotate;  // turns about +Y, added to u
+  float scale;   // multiplies everything
+} env;
+
+// Radiance arriving along -d, that is seen when looking along the unit
+// direction d.  Bilinear in the map, u wraps, v is clamped.
+vec3 env_radiance(const env *e, vec3 d);
+
+// The (u, v) in [0, 1) x [0, 1] of a unit direction before rotation, and back.
+// u = 0.5 + atan2(d.x, -d.z) / 2 pi, v = acos(d.y) / pi.
+vec2 env_uv(vec3 d);
+vec3 env_direction(vec2 uv);
+
+// Load an equirectangular picture (HDR, PFM, or an 8/16-bit one as sRGB).
+bool env_load(env *out, const char *path, arena *mem, report *r, error *err);
+
+#endif

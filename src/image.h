@@ -1,0 +1,55 @@
+// image.h — rectangles of linear RGB, and the sRGB curve.
+
+#ifndef IMAGE_H
+#define IMAGE_H
+
+#include "arena.h"
+#include "vec.h"
+
+#include <stdint.h>
+
+// Row 0 is the top row; pixel (x, y) is pixels[y * width + x].  Linear RGB
+// radiance unless the holder says otherwise.
+typedef struct image {
+  int width, height;
+  vec3 *pixels;
+} image;
+
+// Sides are limited to this, so that a count of pixels fits 32 bits.
+enum { IMAGE_MAX_SIDE = 65535 };
+
+// A black image that lives as long as a.  Needs 0 < width, height <=
+// IMAGE_MAX_SIDE.
+image image_new(arena *a, int width, int height);
+
+// Pixels of an image file as stored: `channels` (1 grey, 2 grey + alpha, 3
+// RGB, 4 RGBA) samples a pixel, rows from the top, no padding.  depth 8: one
+// byte a sample; 16: a uint16_t in the machine's order.  Palettes and fewer
+// bits are widened on reading.
+typedef struct pixmap {
+  int width, height, channels, depth;
+  void *samples;
+} pixmap;
+
+// The sRGB transfer curve, both ways, in double precision; x in [0, 1].
+// Source: IEC 61966-2-1:1999, section 5.2, with the constants that make it
+// continuous to double precision only at the published 4 digits.
+double srgb_encode(double x);
+double srgb_decode(double y);
+
+// threshold[k]: the smallest float whose code is k + 1.  Exact: a value's code
+// is the integer nearest to 255 srgb_encode(value).
+typedef struct srgb_table {
+  float threshold[255];
+} srgb_table;
+
+srgb_table srgb_table_new(void);
+
+// The 8-bit code of linear x: NaN and below 0 give 0, above 1 gives 255.
+uint8_t srgb_code(const srgb_table *t, float x);
+
+// The stored pixels as numbers in [0, 1], grey spread to RGB, alpha left out;
+// decoded to linear when `decode`.
+image image_from_pixmap(arena *a, const pixmap *p, bool decode);
+
+#endif

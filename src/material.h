@@ -1,0 +1,50 @@
+// material.h — which surface a face gets, decided once, by a printed table.
+
+#ifndef MATERIAL_H
+#define MATERIAL_H
+
+#include "mtl.h"
+#include "texture.h"
+
+typedef enum material_kind {
+  MATERIAL_BLINN_PHONG,
+  MATERIAL_METAL_ROUGH,
+  MATERIAL_MIRROR,
+  MATERIAL_GLASS
+} material_kind;
+
+// A surface, ready to shade.  Colours are linear.
+typedef struct material {
+  const char *name;
+  material_kind kind;
+  int rule;         // 1..5, of the decision table of interface and book
+  const char *why;  // the lines that decided, for people
+  vec3 kd, ks;      // albedo (base colour for metal-rough); specular colour
+  vec3 ke;          // emitted radiance on the front side
+  vec3 tf;          // share of light transmitted, metal-rough only, else 0
+  float ns, ni, d;  // exponent, index of refraction, opacity
+  float roughness, metallic;
+  bool passes;  // some of it lets light straight through: d < 1 or map_d
+  texture_map map_kd, map_ks, map_ke, map_ns, map_d, map_pr, map_pm;
+  texture_map map_bump, map_norm;
+} material;
+
+// The names that decide.
+typedef struct material_use {
+  const char *object;            // NULL when none
+  const char *name;              // usemtl, NULL when none
+  const mtl_material *assigned;  // by rule 1, else NULL
+  const mtl_material *written;   // of the MTL, else NULL: grey default
+  bool name_rules;               // rule 4 in force
+} material_use;
+
+// Apply the table: first match wins.
+material material_decide(const material_use *use, arena *mem);
+
+// Whether text contains word as a whole word: case-insensitive, split at _ .
+// - blanks, digits.
+bool material_has_word(const char *text, const char *word);
+
+const char *material_kind_name(material_kind k);
+
+#endif

@@ -1,0 +1,41 @@
+// ray.h — rays, hits, and what traces them.
+
+#ifndef RAY_H
+#define RAY_H
+
+#include "vec.h"
+
+#include <stdint.h>
+
+// The points o + t d with tmin <= t <= tmax.  d need not have unit length;
+// -0, denormal and zero components are fine.
+typedef struct ray {
+  vec3 o, d;
+  float tmin, tmax;
+} ray;
+
+// No triangle.
+#define HIT_NONE UINT32_MAX
+
+// Where a ray met a triangle: its number in the mesh, the distance in units of
+// |d|, and the barycentric weights of its second and third corner.
+typedef struct hit {
+  float t, b1, b2;
+  uint32_t triangle;
+} hit;
+
+// A ray with tmin 0 and no end.
+static inline ray ray_from(vec3 o, vec3 d) {
+  return (ray){o, d, 0, INFINITY};
+}
+
+// Something that can be asked for hits: a list, a tree, a wider tree.  closest
+// returns false and leaves *h alone on a miss; of hits at equal t it gives the
+// lowest triangle number.  any says whether anything lies in [tmin, tmax].
+typedef struct tracer {
+  const void *tree;
+  bool (*closest)(const void *tree, const ray *r, hit *h);
+  bool (*any)(const void *tree, const ray *r);
+} tracer;
+
+#endif

@@ -1,0 +1,68 @@
+// render.h — every pixel of a film, by all threads, the same for any number of
+// them.
+
+#ifndef RENDER_H
+#define RENDER_H
+
+#include "path_naive.h"
+#include "pool.h"
+
+#include <signal.h>
+
+// What a pixel shows.
+typedef enum render_shading {
+  RENDER_RADIANCE,
+  RENDER_NORMAL,  // (n + 1) / 2 of the shading normal
+  RENDER_DEPTH,   // distance along the view axis, divided by the farthest
+  RENDER_ALBEDO
+} render_shading;
+
+// Bits of render_settings.aovs, and indices of render_result.aov by position.
+enum {
+  RENDER_AOV_NORMAL = 1,
+  RENDER_AOV_DEPTH = 2,
+  RENDER_AOV_ALBEDO = 4,
+  RENDER_AOV_VARIANCE = 8,
+  RENDER_AOV_SAMPLES = 16,
+  RENDER_AOV_COUNT = 5
+};
+
+typedef struct render_progress {
+  double done;     // share of the work, 0..1
+  double seconds;  // since rendering began
+  uint64_t samples;
+  double error;  // estimated relative error of the picture, 0: not known
+} render_progress;
+
+typedef struct render_settings {
+  int width, height;
+  int x0, y0, x1, y1;  // crop, half-open; all of the film when x1 is 0
+  int spp;             // total
+  uint64_t seed;
+  render_shading shading;
+  unsigned aovs;
+  double deadline;  // CLOCK_MONOTONIC seconds to stop at; 0: none
+  double error;     // stop at this estimated relative error; 0: never
+  const volatile sig_atomic_t *stop;  // finish the pass when it turns non-zero
+  void (*progress)(void *context, const render_progress *p);  // may be NULL
+  void *progress_context;
+} render_settings;
+
+typedef struct render_result {
+  image color;                  // of the crop window
+  image aov[RENDER_AOV_COUNT];  // pixels NULL where not asked for
+  int spp;                      // samples every pixel got
+  double seconds;
+  double error;  // estimated relative error, 0: not estimated
+  uint64_t rays, samples;
+  uint64_t non_finite;           // samples dropped
+  int bad_x, bad_y, bad_sample;  // the first of them
+  bool stopped;                  // before spp, by *stop
+} render_result;
+
+// Render into images that live in mem.
+void render_run(render_result *out, const path_world *world,
+                const camera_view *view, const render_settings *settings,
+                arena *mem, pool *threads);
+
+#endif

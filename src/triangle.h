@@ -1,0 +1,28 @@
+// triangle.h — where a ray meets a triangle, without leaks.
+//
+// Source: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT
+// 2(1), 2013.  No fused multiply-add anywhere here: contraction breaks the
+// symmetry that makes shared edges watertight.
+
+#ifndef TRIANGLE_H
+#define TRIANGLE_H
+
+#include "ray.h"
+
+// The shear that turns a ray's direction into +z: axis order and factors, one
+// per ray.
+typedef struct ray_shear {
+  int kx, ky, kz;
+  float sx, sy, sz;
+} ray_shear;
+
+ray_shear ray_shear_of(vec3 d);
+
+// Whether r meets the triangle p0 p1 p2, from either side, at tmin <= t <=
+// tmax of r; then t, b1, b2 of *h are set and its triangle left alone.  Of two
+// triangles that share an edge, in any order of corners, at least one is hit
+// by every ray that passes through the edge.
+bool triangle_hit(const ray *r, const ray_shear *s, vec3 p0, vec3 p1, vec3 p2,
+                  hit *h);
+
+#endif

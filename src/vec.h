@@ -1,0 +1,103 @@
+// vec.h — points, directions and colours as three floats.
+//
+// Floor 0: includes nothing of ours.  Every function is pure and inline.
+
+#ifndef VEC_H
+#define VEC_H
+
+#include <math.h>
+#include <stdbool.h>
+
+#define PI 3.14159265f
+
+// Three floats: a point or direction in world units, or linear RGB.
+typedef struct vec3 {
+  float x, y, z;
+} vec3;
+
+// Two floats: a point of the texture plane or of the image plane.
+typedef struct vec2 {
+  float x, y;
+} vec2;
+
+// The vector whose three components are s.
+static inline vec3 vec3_all(float s) {
+  return (vec3){s, s, s};
+}
+
+static inline vec3 vec3_add(vec3 a, vec3 b) {
+  return (vec3){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+static inline vec3 vec3_sub(vec3 a, vec3 b) {
+  return (vec3){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+// Componentwise product: light of colour b seen through a filter a.
+static inline vec3 vec3_mul(vec3 a, vec3 b) {
+  return (vec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+static inline vec3 vec3_scale(vec3 a, float s) {
+  return (vec3){a.x * s, a.y * s, a.z * s};
+}
+
+static inline vec3 vec3_neg(vec3 a) {
+  return (vec3){-a.x, -a.y, -a.z};
+}
+
+// a + s b, the step along a ray.
+static inline vec3 vec3_mad(vec3 a, float s, vec3 b) {
+  return (vec3){a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+}
+
+// (1 - t) a + t b.
+static inline vec3 vec3_lerp(vec3 a, vec3 b, float t) {
+  return vec3_add(vec3_scale(a, 1 - t), vec3_scale(b, t));
+}
+
+static inline float vec3_dot(vec3 a, vec3 b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline vec3 vec3_cross(vec3 a, vec3 b) {
+  return (vec3){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z,
+                a.x * b.y - a.y * b.x};
+}
+
+static inline float vec3_length(vec3 a) {
+  return sqrtf(vec3_dot(a, a));
+}
+
+// a / |a|, or a itself when its length is 0 or not finite.  Scaled first, so
+// that neither 1e-30 nor 1e30 loses its direction to a square.
+static inline vec3 vec3_unit(vec3 a) {
+  float m = fmaxf(fabsf(a.x), fmaxf(fabsf(a.y), fabsf(a.z)));
+  if (!(m > 0) || isinf(m)) return a;
+  vec3 s = {a.x / m, a.y / m, a.z / m};
+  return vec3_scale(s, 1 / vec3_length(s));
+}
+
+static inline vec3 vec3_min(vec3 a, vec3 b) {
+  return (vec3){fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z)};
+}
+
+static inline vec3 vec3_max(vec3 a, vec3 b) {
+  return (vec3){fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z)};
+}
+
+static inline vec3 vec3_abs(vec3 a) {
+  return (vec3){fabsf(a.x), fabsf(a.y), fabsf(a.z)};
+}
+
+// The largest component.
+static inline float vec3_peak(vec3 a) {
+  return fmaxf(a.x, fmaxf(a.y, a.z));
+}
+
+// Whether every component is finite.
+static inline bool vec3_finite(vec3 a) {
+  return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
+}
+
+#endif
