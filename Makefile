@@ -32,7 +32,7 @@ endif
 CHAPTER_1 := vec error arena report image png pfm hdr jpeg tga picture metric
 CHAPTER_2 := $(CHAPTER_1) pool number text path_find polygon mesh mtl obj normals
 CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material scene
-CHAPTER_4 := $(CHAPTER_3) aabb bvh
+CHAPTER_4 := $(CHAPTER_3) aabb bvh sah bvh_build rays
 CHAPTER_8 := $(CHAPTER_4) surface
 CHAPTER_9 := $(CHAPTER_8) rng bsdf path_naive render
 LIBRARY   := $(CHAPTER_9)
