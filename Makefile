@@ -30,7 +30,8 @@ endif
 # program of a chapter links only the modules that it and the chapters before
 # it explain: the linker proves the reading order.
 CHAPTER_1 := vec error arena report image png pfm hdr jpeg tga picture metric
-CHAPTER_2 := $(CHAPTER_1) pool number text path_find polygon mesh mtl obj normals
+CHAPTER_2 := $(CHAPTER_1) cpu_quota pool digits number text path_find polygon \
+             mesh mtl obj_chunk obj normals
 CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material scene
 CHAPTER_4 := $(CHAPTER_3) aabb bvh sah bvh_build rays
 CHAPTER_8 := $(CHAPTER_4) surface

@@ -1,0 +1,145 @@
+// pool.c
+
+// For sched_getaffinity, which POSIX does not have.
+#define _GNU_SOURCE
+
+#include "pool.h"
+
+#include "cpu_quota.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+// More workers than this help nobody.
+enum { POOL_MAX_THREADS = 1024 };
+
+// What a helper thread is told at its start: its number, 1 and up.
+typedef struct pool_helper {
+  pool *owner;
+  pthread_t thread;
+  int worker;
+} pool_helper;
+
+// The lock guards round, busy and quit; work, context and items change only
+// while no helper is busy.
+struct pool {
+  pthread_mutex_t lock;
+  pthread_cond_t start, done;
+  pool_helper *helpers;
+  int helper_count;
+  uint64_t round;  // counts the calls of pool_run
+  int busy;        // helpers that have not finished this round
+  bool quit;
+  pool_work work;
+  void *context;
+  size_t items;
+  atomic_size_t next;  // the next item that nobody has taken
+};
+
+int pool_default_threads(void) {
+  int n = 0;
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) == 0) n = CPU_COUNT(&set);
+  if (n < 1) n = (int)sysconf(_SC_NPROCESSORS_ONLN);
+  double quota = cpu_quota("/proc/self/cgroup", "/sys/fs/cgroup");
+  if (quota < n) n = (int)quota;
+  int slurm = cpu_count_of(getenv("SLURM_CPUS_PER_TASK"));
+  if (slurm > 0 && slurm < n) n = slurm;
+  if (n > POOL_MAX_THREADS) n = POOL_MAX_THREADS;
+  return n < 1 ? 1 : n;
+}
+
+// Take items until none is left.
+static void drain(pool *p, int worker) {
+  size_t item;
+  while ((item = atomic_fetch_add(&p->next, 1)) < p->items)
+    p->work(p->context, item, worker);
+}
+
+// A helper's life: sleep until a round begins, drain it, say so.
+static void *helper_main(void *argument) {
+  pool_helper *self = argument;
+  pool *p = self->owner;
+  uint64_t seen = 0;
+  pthread_mutex_lock(&p->lock);
+  for (;;) {
+    while (p->round == seen && !p->quit)
+      pthread_cond_wait(&p->start, &p->lock);
+    if (p->quit) break;
+    seen = p->round;
+    pthread_mutex_unlock(&p->lock);
+    drain(p, self->worker);
+    pthread_mutex_lock(&p->lock);
+    if (--p->busy == 0) pthread_cond_signal(&p->done);
+  }
+  pthread_mutex_unlock(&p->lock);
+  return NULL;
+}
+
+// Helpers are born with every signal blocked, so that a signal interrupts the
+// thread that called pool_new and no other.
+pool *pool_new(arena *mem, int threads) {
+  if (threads < 1) threads = 1;
+  if (threads > POOL_MAX_THREADS) threads = POOL_MAX_THREADS;
+  pool *p = ARENA_NEW(mem, pool, 1);
+  pthread_mutex_init(&p->lock, NULL);
+  pthread_cond_init(&p->start, NULL);
+  pthread_cond_init(&p->done, NULL);
+  p->helpers = ARENA_NEW(mem, pool_helper, (size_t)threads);
+  sigset_t all, old;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &old);
+  for (int i = 0; i < threads - 1; i++) {
+    pool_helper *h = &p->helpers[i];
+    h->owner = p;
+    h->worker = i + 1;
+    if (pthread_create(&h->thread, NULL, helper_main, h) != 0) break;
+    p->helper_count++;
+  }
+  pthread_sigmask(SIG_SETMASK, &old, NULL);
+  return p;
+}
+
+int pool_threads(const pool *p) {
+  return p == NULL ? 1 : p->helper_count + 1;
+}
+
+void pool_free(pool *p) {
+  if (p == NULL) return;
+  pthread_mutex_lock(&p->lock);
+  p->quit = true;
+  pthread_cond_broadcast(&p->start);
+  pthread_mutex_unlock(&p->lock);
+  for (int i = 0; i < p->helper_count; i++)
+    pthread_join(p->helpers[i].thread, NULL);
+  pthread_cond_destroy(&p->done);
+  pthread_cond_destroy(&p->start);
+  pthread_mutex_destroy(&p->lock);
+}
+
+void pool_run(pool *p, size_t items, pool_work work, void *context) {
+  if (p == NULL || p->helper_count == 0 || items <= 1) {
+    for (size_t i = 0; i < items; i++)
+      work(context, i, 0);
+    return;
+  }
+  pthread_mutex_lock(&p->lock);
+  p->work = work;
+  p->context = context;
+  p->items = items;
+  atomic_store(&p->next, 0);
+  p->busy = p->helper_count;
+  p->round++;
+  pthread_cond_broadcast(&p->start);
+  pthread_mutex_unlock(&p->lock);
+  drain(p, 0);
+  pthread_mutex_lock(&p->lock);
+  while (p->busy > 0)
+    pthread_cond_wait(&p->done, &p->lock);
+  pthread_mutex_unlock(&p->lock);
+}
