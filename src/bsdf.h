@@ -19,7 +19,7 @@ typedef enum bsdf_kind {
 // A scattering function with its textures already looked up.
 typedef struct bsdf {
   bsdf_kind kind;
-  vec3 kd, ks;   // diffuse albedo; specular colour
+  vec3 kd, ks;   // diffuse albedo (glass: share that passes); specular colour
   float ns;      // Blinn-Phong exponent
   float eta;     // glass: index of refraction inside over outside
   bool schlick;  // mirror: ks is F0 and rises towards grazing by Schlick
