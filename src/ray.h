@@ -5,10 +5,11 @@
 
 #include "vec.h"
 
+#include <float.h>
 #include <stdint.h>
 
 // The points o + t d with tmin <= t <= tmax.  d need not have unit length;
-// -0, denormal and zero components are fine.
+// -0 and zero components are fine, denormal ones count as 0.
 typedef struct ray {
   vec3 o, d;
   float tmin, tmax;
@@ -27,6 +28,14 @@ typedef struct hit {
 // A ray with tmin 0 and no end.
 static inline ray ray_from(vec3 o, vec3 d) {
   return (ray){o, d, 0, INFINITY};
+}
+
+// d with every component smaller than FLT_MIN replaced by 0.  The reciprocal
+// of a denormal overflows, so all that divides by a component asks this first:
+// the triangle test and the box test then speak of the same line.
+static inline vec3 ray_flush(vec3 d) {
+  return (vec3){fabsf(d.x) < FLT_MIN ? 0 : d.x, fabsf(d.y) < FLT_MIN ? 0 : d.y,
+                fabsf(d.z) < FLT_MIN ? 0 : d.z};
 }
 
 // Something that can be asked for hits: a list, a tree, a wider tree.  closest

@@ -9,10 +9,11 @@
 
 #include "ray.h"
 
-// The shear that turns a ray's direction into +z: axis order and factors, one
-// per ray.
+// The shear that turns a ray's direction into +z: the axis kz along which it
+// runs fastest, and the factors for the other two (cyclically after kz) and for
+// kz itself.  One per ray.
 typedef struct ray_shear {
-  int kx, ky, kz;
+  int kz;
   float sx, sy, sz;
 } ray_shear;
 
@@ -21,7 +22,10 @@ ray_shear ray_shear_of(vec3 d);
 // Whether r meets the triangle p0 p1 p2, from either side, at tmin <= t <=
 // tmax of r; then t, b1, b2 of *h are set and its triangle left alone.  Of two
 // triangles that share an edge, in any order of corners, at least one is hit
-// by every ray that passes through the edge.
+// by every ray that passes through the edge.  A ray that starts in the plane of
+// a triangle, within double precision, does not hit it: with tmin 0 it never
+// meets the triangle it starts on.  Triangles without area, and rays and
+// corners that are not finite, give no hit.
 bool triangle_hit(const ray *r, const ray_shear *s, vec3 p0, vec3 p1, vec3 p2,
                   hit *h);
 

@@ -1,0 +1,117 @@
+// num.c — Taylor series after an exact reduction of the argument: nothing but
+// +, -, * and /, which IEEE 754 rounds the same way everywhere.
+
+#include "num.h"
+
+#include <stdint.h>
+#include <string.h>
+
+// 1 / (2 pi).
+#define TURNS_PER_RADIAN 0.159154943f
+
+vec2 num_circle(float u) {
+  // r in [-1/8, 1/8] turns is exact: u and quarter / 4 are within a factor 2.
+  float quarter = floorf(u * 4 + 0.5f);
+  float x = (u - quarter * 0.25f) * (2 * PI), x2 = x * x;
+  float s = x + x * x2 *
+                    (-1.0f / 6 +
+                     x2 * (1.0f / 120 + x2 * (-1.0f / 5040 + x2 / 362880)));
+  float c = 1 + x2 * (-0.5f + x2 * (1.0f / 24 +
+                                    x2 * (-1.0f / 720 + x2 * (1.0f / 40320))));
+  switch ((int)quarter & 3) {
+  case 0: return (vec2){c, s};
+  case 1: return (vec2){-s, c};
+  case 2: return (vec2){-c, -s};
+  default: return (vec2){s, -c};
+  }
+}
+
+// log2 of a finite x > 0, to 1e-12, in double precision: a power needs its
+// logarithm to 1e-9, as an error is multiplied by up to 128 ln 2.  With m in
+// [sqrt(1/2), sqrt(2)) and s = (m - 1) / (m + 1), ln m = 2 (s + s^3/3 + ...).
+static double log2_in_double(float x) {
+  double wide = (double)x;  // also a denormal float is a normal double
+  uint64_t bits;
+  memcpy(&bits, &wide, sizeof bits);
+  int exponent = (int)(bits >> 52) - 1023;
+  bits = (bits & 0xfffffffffffff) | (UINT64_C(1023) << 52);
+  double m;
+  memcpy(&m, &bits, sizeof m);
+  if (m >= 1.4142135623730951) {
+    m *= 0.5;
+    exponent++;
+  }
+  double s = (m - 1) / (m + 1), s2 = s * s;
+  double series =
+      1 +
+      s2 * (1.0 / 3 +
+            s2 * (1.0 / 5 +
+                  s2 * (1.0 / 7 + s2 * (1.0 / 9 + s2 * (1.0 / 11 + s2 / 13)))));
+  return exponent + s * series * 2.8853900817779268;  // 2 / ln 2
+}
+
+// 2^y rounded to float: 2^n by writing the exponent, 2^f for |f| <= 1/2 by the
+// series of exp(f ln 2), relative error 1e-11.
+static float exp2_of_double(double y) {
+  if (!(y > -151)) return y <= -151 ? 0 : NAN;
+  if (y >= 128) return INFINITY;
+  double n = floor(y + 0.5), x = (y - n) * 0.69314718055994531;
+  double term = 1, sum = 1;
+  for (int k = 1; k <= 10; k++) {
+    term *= x / k;
+    sum += term;
+  }
+  uint64_t bits = (uint64_t)((int64_t)n + 1023) << 52;
+  double power;
+  memcpy(&power, &bits, sizeof power);
+  return (float)(sum * power);
+}
+
+float num_log2(float x) {
+  if (x == 0) return -INFINITY;
+  if (!(x < INFINITY)) return x;
+  return (float)log2_in_double(x);
+}
+
+float num_exp2(float x) {
+  return exp2_of_double((double)x);
+}
+
+float num_pow(float x, float y) {
+  if (y == 0) return 1;
+  if (x == 0) return y > 0 ? 0 : INFINITY;
+  if (!(x < INFINITY)) return y > 0 ? x : 0;
+  return exp2_of_double((double)y * log2_in_double(x));
+}
+
+// atan(y / x) in turns for 0 <= y <= x, x > 0.  Above tan(pi / 8) the angle
+// from the diagonal is smaller; the series ends where the next term is below
+// 4e-9 turns.
+static float first_octant_turns(float y, float x) {
+  bool far = y > 0.41421356f * x;
+  float z = far ? (y - x) / (y + x) : y / x, z2 = z * z;
+  float tail =
+      z2 * (-1.0f / 3 +
+            z2 * (1.0f / 5 +
+                  z2 * (-1.0f / 7 +
+                        z2 * (1.0f / 9 + z2 * (-1.0f / 11 +
+                                               z2 * (1.0f / 13 - z2 / 15))))));
+  float angle = z + z * tail;
+  return (far ? 0.125f : 0) + angle * TURNS_PER_RADIAN;
+}
+
+float num_turns(float y, float x) {
+  float ax = fabsf(x), ay = fabsf(y);
+  if (!(ax > 0 || ay > 0)) return 0;
+  float t = ay <= ax ? first_octant_turns(ay, ax)
+                     : 0.25f - first_octant_turns(ax, ay);
+  if (x < 0) t = 0.5f - t;
+  if (y < 0) t = 1 - t;
+  return t < 1 ? t : 0;
+}
+
+float num_acos_pi(float x) {
+  x = fminf(fmaxf(x, -1), 1);
+  // cos a = x gives tan(a / 2) = sqrt((1 - x) / (1 + x)), well behaved at 1.
+  return 4 * num_turns(sqrtf(1 - x), sqrtf(1 + x));
+}
