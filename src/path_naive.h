@@ -17,6 +17,7 @@ typedef struct path_world {
 // What one path did.
 typedef struct path_stats {
   uint64_t rays;  // closest and any
+  uint64_t cut;   // paths ended by the limit on their length: lost light
 } path_stats;
 
 // One sample of the radiance that arrives along -r.d at r.o.  Unbiased for any

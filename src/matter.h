@@ -1,0 +1,32 @@
+// matter.h — from a material with its textures to the one scattering function
+// that a path meets.
+
+#ifndef MATTER_H
+#define MATTER_H
+
+#include "bsdf.h"
+#include "surface.h"
+
+// A scattering function chosen at random among those that a material is made
+// of.  weight, the share of the chosen one over its probability, multiplies
+// the path.
+typedef struct matter {
+  bsdf bsdf;
+  vec3 weight;
+} matter;
+
+// Choose by u for a viewer at cosine cos_o to the shading normal.  glass.eta
+// is that of a viewer outside.
+matter matter_choose(const surface *s, float cos_o, float u);
+
+// What does not go straight through, in [0, 1].
+float matter_opacity(const surface *s);
+
+// Radiance emitted on the front side.
+vec3 matter_emission(const surface *s);
+
+// The base colour, for the picture of albedo: kd or ks, textured; white for
+// glass.
+vec3 matter_albedo(const surface *s);
+
+#endif
