@@ -16,7 +16,7 @@ PREFIX  ?= /usr/local
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion \
            -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
 # No -ffast-math and no contraction: one source, one image, on every machine.
-FLAGS   := -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) -ffp-contract=off -Isrc
+FLAGS   := -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) -ffp-contract=off -iquote src
 LIBS    := -lpng -ljpeg -lm -lpthread
 # make SAN=address,undefined puts a second build beside the first.
 comma   := ,
@@ -29,13 +29,13 @@ endif
 # module includes only modules on its left or above (tests/floors.t), and the
 # program of a chapter links only the modules that it and the chapters before
 # it explain: the linker proves the reading order.
-CHAPTER_1 := vec error arena report image png pfm hdr jpeg tga picture metric
+CHAPTER_1 := vec error arena report file image png pfm hdr jpeg tga picture metric
 CHAPTER_2 := $(CHAPTER_1) cpu_quota pool digits number text path_find polygon \
              mesh mtl obj_chunk obj normals
 CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material scene
 CHAPTER_4 := $(CHAPTER_3) aabb bvh sah bvh_build rays
 CHAPTER_8 := $(CHAPTER_4) surface
-CHAPTER_9 := $(CHAPTER_8) rng bsdf path_naive render
+CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_naive film render
 LIBRARY   := $(CHAPTER_9)
 CHAPTERS  := 1 2 3 4 8 9
 # The command line, the only floor that prints and exits.

@@ -22,6 +22,10 @@ enum { IMAGE_MAX_SIDE = 65535 };
 // IMAGE_MAX_SIDE.
 image image_new(arena *a, int width, int height);
 
+// A side from the text of a file header: decimal digits and nothing else, in
+// 1 .. IMAGE_MAX_SIDE.  False, and *side untouched, otherwise.
+bool image_parse_side(const char *text, int *side);
+
 // Pixels of an image file as stored: `channels` (1 grey, 2 grey + alpha, 3
 // RGB, 4 RGBA) samples a pixel, rows from the top, no padding.  depth 8: one
 // byte a sample; 16: a uint16_t in the machine's order.  Palettes and fewer
@@ -47,6 +51,9 @@ srgb_table srgb_table_new(void);
 
 // The 8-bit code of linear x: NaN and below 0 give 0, above 1 gives 255.
 uint8_t srgb_code(const srgb_table *t, float x);
+
+// The same with 16 bits: the integer nearest to 65535 srgb_encode(x).
+uint16_t srgb_code16(float x);
 
 // The stored pixels as numbers in [0, 1], grey spread to RGB, alpha left out;
 // decoded to linear when `decode`.
