@@ -107,8 +107,6 @@ bool text_next_line(text_lines *t, span *line) {
     length += s.length;
     t->joined[length - 1] = ' ';
     s = t->at < t->end ? physical_line(t) : (span){t->end, 0};
-    // Only the first line of several can be a comment.
-    if (s.length == 0 || s.at[s.length - 1] != '\\') break;
   }
   if (length > 0) {
     t->joined = array_grow(t->joined, &t->room, length + s.length, 1);
