@@ -13,11 +13,15 @@
 typedef enum render_shading {
   RENDER_RADIANCE,
   RENDER_NORMAL,  // (n + 1) / 2 of the shading normal
-  RENDER_DEPTH,   // distance along the view axis, divided by the farthest
+  RENDER_DEPTH,   // distance along the view axis over that of the farthest
+                  // corner of the scene's box; 1 where there is nothing
   RENDER_ALBEDO
 } render_shading;
 
 // Bits of render_settings.aovs, and indices of render_result.aov by position.
+// Normal, depth and albedo are means over the samples' first surfaces; what
+// sees none counts 0, for depth not at all.  Variance is that of the mean, 0
+// after one sample.
 enum {
   RENDER_AOV_NORMAL = 1,
   RENDER_AOV_DEPTH = 2,
@@ -55,8 +59,9 @@ typedef struct render_result {
   double seconds;
   double error;  // estimated relative error, 0: not estimated
   uint64_t rays, samples;
+  uint64_t cut;                  // paths ended by path_naive's limit
   uint64_t non_finite;           // samples dropped
-  int bad_x, bad_y, bad_sample;  // the first of them
+  int bad_x, bad_y, bad_sample;  // the first of them, in the full film
   bool stopped;                  // before spp, by *stop
 } render_result;
 

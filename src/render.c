@@ -1,0 +1,295 @@
+// render.c — the trick: a sample is a pure function of (seed, pixel, sample
+// number) and each pixel adds its own samples in order, so neither threads nor
+// tiles nor the way the samples are cut into passes can be seen in the picture.
+
+#include "render.h"
+
+#include "film.h"
+#include "matter.h"
+
+#include <stdatomic.h>
+#include <time.h>
+
+// Pixels a side of a tile, the item of work of a thread.
+enum { TILE = 16 };
+
+// The seconds that a pass should take where someone waits for its end, and
+// between two calls of the progress function.
+#define PASS_SECONDS 0.5
+#define PROGRESS_SECONDS 0.1
+
+// The fewest samples a pixel after which the estimated error is believed.
+enum { ERROR_MIN_SPP = 16 };
+
+// What one worker counts, apart from its neighbour's cache line.
+typedef struct tally {
+  path_stats paths;
+  uint64_t samples, non_finite;
+  uint64_t bad_sample, bad_pixel;  // the first dropped one, sample before pixel
+  char apart[80];
+} tally;
+
+// The averages beside the radiance.
+typedef struct first_films {
+  film normal, depth, albedo;
+} first_films;
+
+// One call of render_run.
+typedef struct job {
+  const path_world *world;
+  const camera_view *view;
+  const render_settings *set;
+  int x0, y0, width, height;  // the crop window
+  int tiles_across, tile_count;
+  film color;
+  first_films first;
+  float farthest;   // of the scene along the view axis
+  int begin, end;   // the samples of this pass
+  atomic_int done;  // its finished tiles
+  double start, last_progress, error;
+  tally *tallies;
+  int workers;
+} job;
+
+static double seconds_now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+// What the first surface on a ray looks like by itself.
+typedef struct first_hit {
+  bool found;
+  float depth;  // along the view axis
+  vec3 normal, albedo;
+} first_hit;
+
+static first_hit first_hit_of(const job *j, const ray *r, path_stats *stats) {
+  const tracer *t = &j->world->tracer;
+  const scene *world = j->world->scene;
+  hit h;
+  stats->rays++;
+  if (!t->closest(t->tree, r, &h)) return (first_hit){0};
+  surface s = surface_at(world, &h, r->d);
+  float depth = vec3_dot(vec3_sub(s.p, j->view->eye), j->view->forward);
+  return (first_hit){true, depth, surface_mapped_normal(world, &s, &h),
+                     matter_albedo(&s)};
+}
+
+static vec3 shade_first(const job *j, const first_hit *f) {
+  switch (j->set->shading) {
+  case RENDER_NORMAL:
+    if (!f->found) break;
+    return vec3_scale(vec3_add(f->normal, vec3_all(1)), 0.5f);
+  case RENDER_DEPTH:
+    return vec3_all(f->found ? fminf(f->depth / j->farthest, 1) : 1);
+  case RENDER_ALBEDO: return f->albedo;
+  case RENDER_RADIANCE: break;
+  }
+  return vec3_all(0);
+}
+
+static void add_first(first_films *films, size_t i, const first_hit *f) {
+  if (films->normal.sum != NULL) film_add(&films->normal, i, f->normal);
+  if (films->albedo.sum != NULL) film_add(&films->albedo, i, f->albedo);
+  if (films->depth.sum != NULL && f->found)
+    film_add(&films->depth, i, vec3_all(f->depth));
+}
+
+static bool wants_first(const render_settings *s) {
+  unsigned of_first = RENDER_AOV_NORMAL | RENDER_AOV_DEPTH | RENDER_AOV_ALBEDO;
+  return s->shading != RENDER_RADIANCE || (s->aovs & of_first) != 0;
+}
+
+// Note a sample that is not finite; the first is the one with the lowest
+// sample number, then the lowest pixel, for any number of threads and passes.
+static void drop_sample(tally *t, uint64_t sample, uint64_t pixel) {
+  bool first = t->non_finite++ == 0 || sample < t->bad_sample ||
+               (sample == t->bad_sample && pixel < t->bad_pixel);
+  if (!first) return;
+  t->bad_sample = sample;
+  t->bad_pixel = pixel;
+}
+
+// The sample of the given number of pixel (x, y) of the window.
+static void add_sample(job *j, int x, int y, int sample, tally *t) {
+  size_t i = (size_t)y * (size_t)j->width + (size_t)x;
+  x += j->x0, y += j->y0;
+  uint64_t pixel = (uint64_t)y * (uint64_t)j->set->width + (uint64_t)x;
+  rng random = rng_of(j->set->seed, pixel, (uint64_t)sample);
+  float dx = rng_next(&random), dy = rng_next(&random);
+  ray r = camera_ray(j->view, (float)x + dx, (float)y + dy);
+  first_hit first = {0};
+  if (wants_first(j->set)) first = first_hit_of(j, &r, &t->paths);
+  vec3 color = j->set->shading == RENDER_RADIANCE
+                   ? path_naive_radiance(j->world, r, &random, &t->paths)
+                   : shade_first(j, &first);
+  t->samples++;
+  if (!vec3_finite(color)) {
+    drop_sample(t, (uint64_t)sample, pixel);
+    return;
+  }
+  film_add(&j->color, i, color);
+  add_first(&j->first, i, &first);
+}
+
+// The share of the whole that is done, by samples or by time.
+static double share_done(const job *j, double now) {
+  double tiles = (double)atomic_load(&j->done) / (double)j->tile_count;
+  double spp = (double)j->begin + tiles * (double)(j->end - j->begin);
+  double share = spp / (double)j->set->spp;
+  if (j->set->deadline > 0) {
+    double timed = (now - j->start) / (j->set->deadline - j->start);
+    if (timed > share) share = timed;
+  }
+  return share > 0 && share < 1 ? share : share > 0;
+}
+
+static void tell_progress(job *j, double now) {
+  double tiles = (double)atomic_load(&j->done) / (double)j->tile_count;
+  double spp = (double)j->begin + tiles * (double)(j->end - j->begin);
+  double pixels = (double)j->width * (double)j->height;
+  render_progress p = {.done = share_done(j, now),
+                       .seconds = now - j->start,
+                       .samples = (uint64_t)(spp * pixels),
+                       .error = j->error};
+  j->last_progress = now;
+  j->set->progress(j->set->progress_context, &p);
+}
+
+// Work of the pool: the samples of this pass in one tile.
+static void render_tile(void *context, size_t item, int worker) {
+  job *j = context;
+  int tx = (int)item % j->tiles_across * TILE;
+  int ty = (int)item / j->tiles_across * TILE;
+  for (int y = ty; y < ty + TILE && y < j->height; y++)
+    for (int x = tx; x < tx + TILE && x < j->width; x++)
+      for (int s = j->begin; s < j->end; s++)
+        add_sample(j, x, y, s, &j->tallies[worker]);
+  atomic_fetch_add(&j->done, 1);
+  if (worker != 0 || j->set->progress == NULL) return;
+  double now = seconds_now();
+  if (now - j->last_progress >= PROGRESS_SECONDS) tell_progress(j, now);
+}
+
+// How many samples the next pass takes; 0 to stop.  All that is left when
+// nobody waits; else what should fit into PASS_SECONDS and before the
+// deadline, after a first pass of one.
+static int pass_samples(const job *j) {
+  const render_settings *s = j->set;
+  int done = j->end, left = s->spp - done;
+  bool waits =
+      s->deadline > 0 || s->error > 0 || s->stop != NULL || s->progress != NULL;
+  if (!waits) return left;
+  if (done == 0) return left < 1 ? left : 1;
+  if (s->stop != NULL && *s->stop) return 0;
+  if (s->error > 0 && done >= ERROR_MIN_SPP && j->error <= s->error) return 0;
+  double now = seconds_now(), each = (now - j->start) / done;
+  double room = PASS_SECONDS;
+  if (s->deadline > 0) {
+    if (now + each > s->deadline) return 0;
+    room = fmin(room, s->deadline - now);
+  }
+  double n = fmin(fmin(room / fmax(each, 1e-9), 4.0 * done), (double)left);
+  return n < 1 ? 1 : (int)n;
+}
+
+// The farthest corner of the scene's box along the view axis, so that depth
+// means the same in every crop.
+static float farthest_depth(const scene *s, const camera_view *v) {
+  float far = 0;
+  for (int i = 0; i < 8; i++) {
+    vec3 corner = {i & 1 ? s->hi.x : s->lo.x, i & 2 ? s->hi.y : s->lo.y,
+                   i & 4 ? s->hi.z : s->lo.z};
+    far = fmaxf(far, vec3_dot(vec3_sub(corner, v->eye), v->forward));
+  }
+  return far > 0 ? far : 1;
+}
+
+static void make_films(job *j, arena *mem) {
+  const render_settings *s = j->set;
+  int w = j->width, h = j->height;
+  bool squares = s->error > 0 || s->progress != NULL ||
+                 (s->aovs & RENDER_AOV_VARIANCE) != 0;
+  j->color = film_new(mem, w, h, squares);
+  if (s->aovs & RENDER_AOV_NORMAL) j->first.normal = film_new(mem, w, h, false);
+  if (s->aovs & RENDER_AOV_DEPTH) j->first.depth = film_new(mem, w, h, false);
+  if (s->aovs & RENDER_AOV_ALBEDO) j->first.albedo = film_new(mem, w, h, false);
+}
+
+static void sum_tallies(render_result *out, const job *j) {
+  tally all = {0};
+  for (int i = 0; i < j->workers; i++) {
+    const tally *t = &j->tallies[i];
+    out->rays += t->paths.rays;
+    out->cut += t->paths.cut;
+    out->samples += t->samples;
+    if (t->non_finite == 0) continue;
+    uint64_t before = all.non_finite;
+    drop_sample(&all, t->bad_sample, t->bad_pixel);
+    all.non_finite = before + t->non_finite;
+  }
+  out->non_finite = all.non_finite;
+  out->bad_x = (int)(all.bad_pixel % (uint64_t)j->set->width);
+  out->bad_y = (int)(all.bad_pixel / (uint64_t)j->set->width);
+  out->bad_sample = (int)all.bad_sample;
+}
+
+static image samples_image(const film *f, arena *mem) {
+  image out = image_new(mem, f->width, f->height);
+  size_t n = (size_t)f->width * (size_t)f->height;
+  for (size_t i = 0; i < n; i++)
+    out.pixels[i] = vec3_all((float)f->count[i]);
+  return out;
+}
+
+// Images in the order of the bits of render_settings.aovs.
+static void make_images(render_result *out, const job *j, arena *mem) {
+  const film *of[RENDER_AOV_COUNT] = {&j->first.normal, &j->first.depth,
+                                      &j->first.albedo, NULL, NULL};
+  out->color = film_image(&j->color, mem);
+  for (int i = 0; i < RENDER_AOV_COUNT; i++)
+    if (of[i] != NULL && of[i]->sum != NULL)
+      out->aov[i] = film_image(of[i], mem);
+  if (j->set->aovs & RENDER_AOV_VARIANCE)
+    out->aov[3] = film_variance_image(&j->color, mem);
+  if (j->set->aovs & RENDER_AOV_SAMPLES)
+    out->aov[4] = samples_image(&j->color, mem);
+}
+
+static void render_passes(job *j, pool *threads) {
+  for (int n; (n = pass_samples(j)) > 0;) {
+    j->begin = j->end;
+    j->end += n;
+    atomic_store(&j->done, 0);
+    pool_run(threads, (size_t)j->tile_count, render_tile, j);
+    j->error = film_error(&j->color);
+  }
+  if (j->set->progress != NULL) tell_progress(j, seconds_now());
+}
+
+void render_run(render_result *out, const path_world *world,
+                const camera_view *view, const render_settings *settings,
+                arena *mem, pool *threads) {
+  const render_settings *s = settings;
+  job j = {.world = world, .view = view, .set = s, .start = seconds_now()};
+  bool crop = s->x1 > 0;
+  j.x0 = crop ? s->x0 : 0, j.y0 = crop ? s->y0 : 0;
+  j.width = crop ? s->x1 - s->x0 : s->width;
+  j.height = crop ? s->y1 - s->y0 : s->height;
+  j.tiles_across = (j.width + TILE - 1) / TILE;
+  j.tile_count = j.tiles_across * ((j.height + TILE - 1) / TILE);
+  j.farthest = farthest_depth(world->scene, view);
+  j.last_progress = j.start;
+  arena scratch = {0};
+  j.workers = threads == NULL ? 1 : pool_threads(threads);
+  j.tallies = ARENA_NEW(&scratch, tally, (size_t)j.workers);
+  make_films(&j, &scratch);
+  render_passes(&j, threads);
+  *out = (render_result){.spp = j.end, .error = j.error};
+  out->stopped = s->stop != NULL && *s->stop && j.end < s->spp;
+  sum_tallies(out, &j);
+  make_images(out, &j, mem);
+  arena_free(&scratch);
+  out->seconds = seconds_now() - j.start;
+}
