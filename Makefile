@@ -34,7 +34,7 @@ CHAPTER_2 := $(CHAPTER_1) cpu_quota pool digits number text path_find polygon \
              mesh mtl obj_chunk obj normals
 CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material scene
 CHAPTER_4 := $(CHAPTER_3) aabb bvh sah bvh_build rays
-CHAPTER_8 := $(CHAPTER_4) surface
+CHAPTER_8 := $(CHAPTER_4) surface surface_ray surface_normal
 CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_naive film render
 LIBRARY   := $(CHAPTER_9)
 CHAPTERS  := 1 2 3 4 8 9

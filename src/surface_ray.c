@@ -1,0 +1,86 @@
+// surface_ray.c — how a ray leaves a surface: from a float on the right side
+// of the facet, no farther from it than the error of the point.
+
+#include "surface.h"
+
+#include <string.h>
+
+// The next float above x, by counting up its bits; infinity stays.
+static float float_up(float x) {
+  if (x == 0) return 0x1p-149f;
+  if (!(x < INFINITY)) return x;
+  uint32_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  if (x > 0)
+    bits++;
+  else
+    bits--;
+  memcpy(&x, &bits, sizeof bits);
+  return x;
+}
+
+// x + dx, rounded so that the step taken is not shorter than dx.  The
+// difference of two neighbouring floats is exact in double.
+static float step_away(float x, float dx) {
+  float y = x + dx;
+  double step = (double)y - (double)x;
+  if (dx > 0 && step < (double)dx) return float_up(y);
+  if (dx < 0 && step > (double)dx) return -float_up(-y);
+  return y;
+}
+
+// p, moved along unit n until it is on n's side of every plane across n within
+// `bound` of p.  The factor makes up for the rounding of n and of this sum.
+static vec3 displaced(vec3 p, vec3 bound, vec3 n) {
+  float distance = vec3_dot(vec3_abs(n), bound) * (1 + 0x1p-20f);
+  return (vec3){step_away(p.x, distance * n.x), step_away(p.y, distance * n.y),
+                step_away(p.z, distance * n.z)};
+}
+
+// ng or its opposite: the one on w's side.
+static vec3 side_of(const surface *s, vec3 w) {
+  return vec3_dot(s->ng, w) >= 0 ? s->ng : vec3_neg(s->ng);
+}
+
+// The one on the side that the ray came from.
+static vec3 near_side(const surface *s) {
+  return s->front ? s->ng : vec3_neg(s->ng);
+}
+
+ray surface_ray(const surface *s, vec3 w) {
+  return ray_from(displaced(s->p, s->p_error, side_of(s, w)), w);
+}
+
+// The error of p_smooth: it may be larger than p, and so its last digit.
+static vec3 smooth_error(const surface *s) {
+  return vec3_mad(s->p_error, 0x1.000008p-24f,
+                  vec3_abs(vec3_sub(s->p_smooth, s->p)));
+}
+
+ray surface_smooth_ray(const surface *s, vec3 w) {
+  vec3 o = displaced(s->p_smooth, smooth_error(s), near_side(s));
+  return ray_from(o, w);
+}
+
+// Where a shadow ray ends, as a share of its way: 1 less the 16 roundings that
+// the difference q - o and the hit distance may have between them.
+#define SHADOW_END (1 - 0x1p-20f)
+
+ray surface_ray_to(const surface *s, vec3 q, bool smooth) {
+  vec3 o = smooth ? surface_smooth_ray(s, s->ng).o
+                  : surface_ray(s, vec3_sub(q, s->p)).o;
+  ray r = ray_from(o, vec3_sub(q, o));
+  r.tmax = SHADOW_END;
+  return r;
+}
+
+// A direction is kept this far, as a cosine, from the plane of the facet when
+// it was on the wrong side.
+#define KEEP_MIN 0x1p-20f
+
+vec3 surface_keep_side(const surface *s, vec3 w, bool transmitted) {
+  vec3 n = s->front == transmitted ? vec3_neg(s->ng) : s->ng;
+  float c = vec3_dot(w, n);
+  if (c > 0) return w;
+  return vec3_unit(vec3_mad(w, KEEP_MIN - c, n));
+}
