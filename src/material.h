@@ -18,7 +18,7 @@ typedef struct material {
   const char *name;
   material_kind kind;
   int rule;         // 1..5, of the decision table of interface and book
-  const char *why;  // the lines that decided, for people
+  const char *why;  // "rule 2: Pr 0.3 at garden.mtl:12"
   vec3 kd, ks;      // albedo (base colour for metal-rough); specular colour
   vec3 ke;          // emitted radiance on the front side
   vec3 tf;          // share of light transmitted, metal-rough only, else 0
@@ -34,11 +34,19 @@ typedef struct material_use {
   const char *object;            // NULL when none
   const char *name;              // usemtl, NULL when none
   const mtl_material *assigned;  // by rule 1, else NULL
+  const char *assigned_at;       // "garden.scene:7", where assigned is set
   const mtl_material *written;   // of the MTL, else NULL: grey default
   bool name_rules;               // rule 4 in force
 } material_use;
 
-// Apply the table: first match wins.
+// Apply the table: first match wins.  1. assign: the kind is then what the
+// assigned material says by rules 2 to 5 with its own name.  2. Pr, Pm or a map
+// for one: metallic-roughness, where alone Tf counts.  3. illum 3, 5, 8 with a
+// Ks that is not black: mirror; 6, 7 with Ni > 1: glass; 4, 9: Blinn-Phong seen
+// through where d < 1.  4. The word glass or mirror in the object's name, else
+// in the material's.  5. Blinn-Phong.  A mirror reflects ks.  Opacity below 1
+// lets light pass under every rule but for glass, which is clear already.
+// Textures are named in map_*.options, not loaded.
 material material_decide(const material_use *use, arena *mem);
 
 // Whether text contains word as a whole word: case-insensitive, split at _ .

@@ -14,16 +14,21 @@ typedef struct texture {
   int width, height, channels;
   const uint8_t *bytes;  // NULL when floats are used
   const float *floats;
+  bool is_linear;       // HDR and PFM: never to be decoded
+  const float *decode;  // linear light by 8-bit sRGB code, shared by all
+  const char *problem;  // why it could not be read, else NULL
 } texture;
 
-// Files by path, each decoded once.
+// Files by path, each decoded once.  Start with {.mem = arena}.
 typedef struct texture_store {
   texture **textures;
   size_t count, room;
   arena *mem;
+  float *decode;
 } texture_store;
 
-// The texture at path, loaded on first use.
+// The texture at path, loaded on first use; NULL when it cannot be read.  A
+// file that failed is not tried again, but fails with the same message.
 const texture *texture_get(texture_store *s, const char *path, report *r,
                            error *err);
 
@@ -35,10 +40,16 @@ typedef struct texture_map {
 } texture_map;
 
 // Bilinear lookup at uv, (0, 0) the lower left corner of the picture, repeated
-// or clamped by the options: linear RGB, or one number by -imfchan (default
-// luminance for grey maps and colour, alpha for map_d with alpha).
+// or clamped by the options, which scale and shift uv first: linear RGB.
+// Texel centres lie at (i + 0.5) / width.  A uv that is not finite reads as 0.
 vec3 texture_rgb(const texture_map *m, vec2 uv);
+
+// The same as one number: the channel that -imfchan names (z counts as l),
+// else the luminance.
 float texture_number(const texture_map *m, vec2 uv);
+
+// The same as opacity: without -imfchan the alpha of a picture that has one,
+// else its luminance.
 float texture_alpha(const texture_map *m, vec2 uv);
 
 #endif

@@ -1,0 +1,88 @@
+// env.c — the light that comes from everywhere.
+
+#include "env.h"
+
+#include "num.h"
+#include "picture.h"
+
+// The built-in sky, linear radiance: blue above, pale at the horizon, dark
+// earth below.
+static const vec3 SKY_ZENITH = {0.16f, 0.30f, 0.60f};
+static const vec3 SKY_HORIZON = {0.62f, 0.68f, 0.74f};
+static const vec3 SKY_GROUND = {0.11f, 0.10f, 0.09f};
+
+// Its sun: radiance at the centre, and the unit direction towards it: above,
+// left and in front of a camera that looks along -Z.
+static const vec3 SKY_SUN = {17.0f, 15.5f, 13.0f};
+static const vec3 SKY_SUN_AT = {-2.0f / 3, 2.0f / 3, 1.0f / 3};
+
+// x^(2^n).
+static float squared_times(float x, int n) {
+  for (int i = 0; i < n; i++)
+    x *= x;
+  return x;
+}
+
+// Polynomials in the height d.y and in the cosine to the sun.
+static vec3 sky_radiance(vec3 d) {
+  float h = fminf(fmaxf(d.y, -1), 1);
+  vec3 far = h >= 0 ? SKY_ZENITH : SKY_GROUND;
+  float haze = h >= 0 ? squared_times(1 - h, 2) : squared_times(1 + h, 4);
+  float c = fminf(fmaxf(vec3_dot(d, SKY_SUN_AT), 0), 1);
+  return vec3_mad(vec3_lerp(far, SKY_HORIZON, haze), squared_times(c, 6),
+                  SKY_SUN);
+}
+
+vec2 env_uv(vec3 d) {
+  float u = num_turns(d.x, -d.z) + 0.5f;
+  return (vec2){u < 1 ? u : u - 1, num_acos_pi(d.y)};
+}
+
+vec3 env_direction(vec2 uv) {
+  vec2 around = num_circle(uv.x), down = num_circle(0.5f * uv.y);
+  return (vec3){-around.y * down.y, down.x, around.x * down.y};
+}
+
+// Bilinear at (u, v), texel centres at (i + 0.5) / n; u of any value wraps.
+static vec3 map_lookup(const image *m, float u, float v) {
+  float x = (u - floorf(u)) * (float)m->width - 0.5f;
+  float y = v * (float)m->height - 0.5f;
+  int x0 = (int)floorf(x), y0 = (int)floorf(y);
+  float fx = x - floorf(x), fy = y - floorf(y);
+  int left = x0 < 0 ? m->width - 1 : x0 < m->width ? x0 : 0;
+  int right = left + 1 < m->width ? left + 1 : 0;
+  int above = y0 < 0 ? 0 : y0 < m->height ? y0 : m->height - 1;
+  int below = y0 + 1 < m->height ? y0 + 1 : m->height - 1;
+  const vec3 *a = m->pixels + (size_t)above * (size_t)m->width;
+  const vec3 *b = m->pixels + (size_t)below * (size_t)m->width;
+  return vec3_lerp(vec3_lerp(a[left], a[right], fx),
+                   vec3_lerp(b[left], b[right], fx), fy);
+}
+
+// d turned about +Y so that its u grows by that many turns.
+static vec3 turned_about_y(vec3 d, float turns) {
+  vec2 cs = num_circle(turns - floorf(turns));
+  return (vec3){d.x * cs.x - d.z * cs.y, d.y, d.z * cs.x + d.x * cs.y};
+}
+
+vec3 env_radiance(const env *e, vec3 d) {
+  if (!vec3_finite(d)) return vec3_all(0);
+  switch (e->kind) {
+  case ENV_CONSTANT: return vec3_scale(e->constant, e->scale);
+  case ENV_SKY:
+    if (e->rotate != 0) d = turned_about_y(d, e->rotate);
+    return vec3_scale(sky_radiance(d), e->scale);
+  case ENV_MAP: {
+    vec2 uv = env_uv(d);
+    return vec3_scale(map_lookup(&e->map, uv.x + e->rotate, uv.y), e->scale);
+  }
+  default: return vec3_all(0);
+  }
+}
+
+bool env_load(env *out, const char *path, arena *mem, report *r, error *err) {
+  image map;
+  if (!picture_read_linear(&map, path, mem, r, err)) return false;
+  *out = (env){.kind = ENV_MAP, .map = map, .scale = 1};
+  return true;
+}
