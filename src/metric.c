@@ -93,7 +93,7 @@ metric metric_compare(const image *a, const image *b, arena *scratch) {
   m.relmse = s.relative / channels;
   m.psnr = m.mse > 0 ? -10 * log10(m.mse) : (double)INFINITY;
   // At least 99.9 % of the pixels differ by p999 or less.
-  size_t rank = (size_t)ceil(0.999 * (double)n) - 1;
+  size_t rank = (n * 999 + 999) / 1000 - 1;
   m.p999 = (double)value_of_rank(largest, n, rank, scratch);
   m.worst_x = (int)(worst % (size_t)a->width);
   m.worst_y = (int)(worst / (size_t)a->width);

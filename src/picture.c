@@ -9,6 +9,7 @@
 #include "png.h"
 #include "tga.h"
 
+#include <errno.h>
 #include <float.h>
 #include <string.h>
 
@@ -154,11 +155,15 @@ bool picture_write(const image *im, const char *path, picture_format format,
   arena names = {0};
   file_writer w;
   bool ok = file_create(&w, path, &names, err);
-  if (ok && !save_any(im, w.stream, path, format, depth, err)) {
-    file_discard(&w);
-    ok = false;
-  } else if (ok) {
-    ok = file_commit(&w, err);
+  if (ok) {
+    ok = save_any(im, w.stream, path, format, depth, err);
+    // A full disk shows as a failed write; only errno knows why.
+    if (ferror(w.stream))
+      ok = fail(err, "%s: cannot be written: %s", path, strerror(errno));
+    if (ok)
+      ok = file_commit(&w, err);
+    else
+      file_discard(&w);
   }
   arena_free(&names);
   return ok;

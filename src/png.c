@@ -4,6 +4,7 @@
 
 #include "file.h"
 
+#include <assert.h>
 #include <png.h>
 #include <setjmp.h>
 #include <string.h>
@@ -147,6 +148,7 @@ static bool png_try_encode(png_job *job, const image *im, int depth, FILE *f) {
 
 bool png_save(const image *im, int depth, FILE *f, const char *name,
               error *err) {
+  assert(depth == 8 || depth == 16);
   png_job job = {0};
   job.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &job, png_failed,
                                     png_warned);
