@@ -1,0 +1,155 @@
+// cmd_output.c
+
+#include "cmd_output.h"
+
+#include "tonemap.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+// Whether a file can be created in the folder of path: 0, or why not.
+static int folder_problem(const char *path, arena *mem) {
+  const char *slash = strrchr(path, '/');
+  size_t n = slash == NULL ? 0 : (size_t)(slash - path) + 1;
+  const char *folder = n == 0 ? "." : arena_text(mem, path, n);
+  struct stat st;
+  if (stat(path, &st) == 0) {
+    if (S_ISDIR(st.st_mode)) return EISDIR;
+    if (!S_ISREG(st.st_mode)) return 0;  // a device or pipe needs no folder
+  }
+  if (stat(folder, &st) != 0) return errno;
+  if (!S_ISDIR(st.st_mode)) return ENOTDIR;
+  return access(folder, W_OK | X_OK) != 0 ? errno : 0;
+}
+
+// The format by --format or suffix; an exit code.
+static int choose_format(output *out) {
+  const options *o = out->o;
+  static const picture_format formats[] = {PICTURE_PNG, PICTURE_PFM,
+                                           PICTURE_HDR};
+  out->format = picture_format_of(out->path);
+  if (o->value[OPT_FORMAT].given)
+    out->format = formats[o->value[OPT_FORMAT].words];
+  for (int i = 0; i < 3; i++)
+    if (out->format == formats[i]) return EXIT_DONE;
+  if (strcmp(out->path, "-") == 0)
+    return cmd_fail(o, EXIT_USAGE, "-o - needs --format png, pfm or hdr");
+  return cmd_fail(o, EXIT_USAGE,
+                  "%s: cannot tell the format from this suffix, expected "
+                  ".png, .pfm or .hdr, or --format",
+                  out->path);
+}
+
+// The paths of the AOVs: NAME.normal.pfm beside NAME.png.
+static void name_aovs(output *out, arena *mem) {
+  const option *o = &option_table[OPT_AOV];
+  char word[32], suffix[64];
+  for (unsigned i = 0; i < RENDER_AOV_COUNT; i++) {
+    if ((out->o->value[OPT_AOV].words >> i & 1) == 0) continue;
+    option_word(o, i, word, sizeof word);
+    snprintf(suffix, sizeof suffix, ".%s.pfm", word);
+    out->aov[i] = cmd_beside(mem, out->path, suffix);
+  }
+}
+
+int output_plan(output *out, const options *o, arena *mem) {
+  *out = (output){.o = o, .path = o->value[OPT_OUTPUT].text};
+  const char *in = o->operands[0];
+  if (out->path == NULL) {
+    const char *stem = strcmp(in, "-") == 0 ? "stdin" : cmd_stem(mem, in);
+    const char *const suffixes[] = {"png", "pfm", "hdr"};
+    out->path =
+        arena_format(mem, "%s.%s", stem, suffixes[o->value[OPT_FORMAT].words]);
+  }
+  int code = choose_format(out);
+  if (code != EXIT_DONE) return code;
+  out->depth = o->value[OPT_DEPTH].words == 1 ? 16 : 8;
+  if (strcmp(out->path, "-") == 0) {
+    if (o->value[OPT_AOV].given)
+      return cmd_fail(o, EXIT_USAGE, "--aov needs the name of a file: -o FILE");
+    if (o->value[OPT_JSON].given)
+      return cmd_fail(o, EXIT_USAGE,
+                      "-o - and --json both want standard output");
+    if (isatty(STDOUT_FILENO))
+      return cmd_fail(o, EXIT_USAGE,
+                      "will not write a picture to a terminal; use -o FILE, or "
+                      "send standard output elsewhere");
+    return EXIT_DONE;
+  }
+  name_aovs(out, mem);
+  int problem = folder_problem(out->path, mem);
+  if (problem == 0) return EXIT_DONE;
+  return cmd_fail(o, EXIT_OUTPUT, "%s: cannot be written: %s", out->path,
+                  strerror(problem));
+}
+
+void output_warn(const output *out, report *r) {
+  if (out->format == PICTURE_PNG) return;
+  const option_id useless[] = {OPT_DEPTH, OPT_EXPOSURE, OPT_TONEMAP};
+  for (int i = 0; i < 3; i++)
+    if (out->o->value[useless[i]].given)
+      report_warn(r,
+                  "--%s has no effect on %s: only PNG has it, this format "
+                  "keeps linear radiance",
+                  option_table[useless[i]].name, out->path);
+}
+
+// Whether both paths lead to one file.
+static bool same_file(const char *a, const char *b) {
+  struct stat x, y;
+  return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev &&
+         x.st_ino == y.st_ino;
+}
+
+// The path written over the input of that name: one of out's, or NULL.
+static const char *overwritten(const output *out, const char *input) {
+  if (input == NULL) return NULL;
+  if (same_file(out->path, input)) return out->path;
+  for (int i = 0; i < RENDER_AOV_COUNT; i++)
+    if (out->aov[i] != NULL && same_file(out->aov[i], input))
+      return out->aov[i];
+  return NULL;
+}
+
+int output_protect_inputs(const output *out, const scene *s, arena *mem) {
+  const char *in = out->o->operands[0];
+  const char *bad = overwritten(out, in);
+  const char *beside[] = {".obj", ".scene", ".mtl"};
+  for (int i = 0; i < 3 && bad == NULL; i++)
+    bad = overwritten(out, cmd_beside(mem, in, beside[i]));
+  for (size_t i = 0; i < s->textures.count && bad == NULL; i++)
+    bad = overwritten(out, s->textures.textures[i]->path);
+  for (size_t i = 0; i < s->mesh.library_count && bad == NULL; i++) {
+    const char *slash = strrchr(in, '/');
+    int folder = slash == NULL ? 0 : (int)(slash - in) + 1;
+    bad = overwritten(
+        out, arena_format(mem, "%.*s%s", folder, in, s->mesh.libraries[i]));
+  }
+  if (bad == NULL) bad = overwritten(out, out->o->value[OPT_ENV].text);
+  if (bad == NULL) return EXIT_DONE;
+  return cmd_fail(out->o, EXIT_USAGE, "%s: is an input; write somewhere else",
+                  bad);
+}
+
+bool output_write(const output *out, const render_result *r, arena *mem,
+                  error *err) {
+  image im = r->color;
+  unsigned shading = out->o->value[OPT_SHADING].words;
+  tonemap_curve curve = (tonemap_curve)out->o->value[OPT_TONEMAP].words;
+  bool is_radiance = shading < 3;
+  if (out->format == PICTURE_PNG && is_radiance &&
+      (out->exposure != 0 || curve != TONEMAP_NONE)) {
+    im = image_new(mem, im.width, im.height);
+    memcpy(im.pixels, r->color.pixels,
+           (size_t)im.width * (size_t)im.height * sizeof *im.pixels);
+    tonemap_apply(&im, out->exposure, curve);
+  }
+  // The companions first: where the picture is, everything is.
+  for (int i = 0; i < RENDER_AOV_COUNT; i++)
+    if (out->aov[i] != NULL && r->aov[i].pixels != NULL &&
+        !picture_write(&r->aov[i], out->aov[i], PICTURE_PFM, 8, err))
+      return false;
+  return picture_write(&im, out->path, out->format, out->depth, err);
+}

@@ -1,0 +1,193 @@
+// option_table.c
+
+#include "option_table.h"
+
+#include <stddef.h>
+
+const command command_table[] = {
+    {"render", CMD_RENDER, "SCENE", 1, 1, "make one picture",
+     "SCENE is an .obj, a .scene, or - for an OBJ on standard input.  A .scene "
+     "file of the same stem beside an .obj is read with it.  With no option "
+     "at all the picture is SCENE.png in the current folder: framed from the "
+     "bounding box, lit by a built-in sky.\n"
+     "The output is written beside its target and renamed: a failed run "
+     "leaves an old picture as it was.  The first SIGINT or SIGTERM finishes "
+     "the pass, writes the picture so far and exits with 75; the second ends "
+     "the program at once.  SIGUSR1 writes the picture so far and goes on."},
+    {"info", CMD_INFO, "FILE...", 1, 1000000, "say what a file holds",
+     "FILE is an .obj, a .scene, a picture, or - for an OBJ on standard "
+     "input.  For meshes and scenes: counts, bounds, area, and for each "
+     "material the rule that decided how it is shaded."},
+    {"compare", CMD_COMPARE, "A B", 2, 2, "compare picture A with reference B",
+     "PNG, JPEG and TGA files are compared as they are stored, divided by "
+     "their largest value; PFM and HDR files as linear light; where one of "
+     "each is given, the first kind is decoded to linear.  All metrics are "
+     "printed; the one named by --metric decides: exit status 0 when it is "
+     "within --fail, 1 when not or when a pixel is not a number, 2 when the "
+     "sizes differ."},
+    {"bench load", CMD_BENCH_LOAD, "OBJ", 1, 1, "time the reading of an OBJ",
+     "Seconds and MB of text per second for each stage, the median of "
+     "--repeat runs."},
+    {"bench rays", CMD_BENCH_RAYS, "OBJ", 1, 1, "time the tracing of rays",
+     "Rays are made for the mesh (--kind) or read from a file.  A ray file "
+     "holds, little-endian, \"RAYS\", u32 flags (1: any hit will do), u64 "
+     "count, and for each ray 8 floats: origin, tmin, direction, tmax.  A hit "
+     "file holds \"HITS\", flags, count, and for each ray a float t and an i32 "
+     "triangle in OBJ order, -1 for a miss, whose t is tmax; where any hit "
+     "will do, t is tmax and the triangle 0 for a hit."},
+    {"help", CMD_HELP, "[COMMAND]", 0, 2, "explain facet or a command", NULL},
+    {0}};
+
+const option option_table[OPTION_COUNT] = {
+    [OPT_OUTPUT] =
+        {"output", 'o', CMD_RENDER, OPTION_TEXT, "FILE",
+         .help = "the picture to write, by suffix .png, .pfm or .hdr; - is "
+                 "standard output and needs --format "
+                 "(default: SCENE.png in the current folder)"},
+    [OPT_FORMAT] = {"format", 0, CMD_RENDER, OPTION_WORD, "png|pfm|hdr",
+                    .help = "file format, whatever the suffix"},
+    [OPT_DEPTH] = {"depth", 0, CMD_RENDER, OPTION_WORD, "8|16", "8",
+                   .help = "bits a channel of a PNG"},
+    [OPT_RESOLUTION] =
+        {"resolution", 'r', CMD_RENDER, OPTION_SIZE, "WxH", "1280x720", 1,
+         65535,
+         .help = "width and height in pixels; a scene file's film line "
+                 "comes before the default"},
+    [OPT_CROP] =
+        {"crop", 0, CMD_RENDER, OPTION_BOX, "X0,Y0,X1,Y1", NULL, 0, 65535,
+         .help = "render only these pixels of the full picture, half-open, "
+                 "from the top left"},
+    [OPT_AOV] = {"aov", 0, CMD_RENDER, OPTION_WORDS,
+                 "normal,depth,albedo,variance,samples",
+                 .help =
+                     "also write these, as linear PFM files beside the output: "
+                     "NAME.normal.pfm beside NAME.png"},
+    [OPT_ENGINE] = {"engine", 0, CMD_RENDER, OPTION_WORD, "auto|path", "auto",
+                    .help = "how light is computed"},
+    [OPT_SHADING] = {"shading", 0, CMD_RENDER, OPTION_WORD,
+                     "auto|blinn-phong|pbr|normal|depth|albedo", "auto",
+                     .help = "auto: each material by its own model"},
+    [OPT_CAMERA] = {"camera", 0, CMD_RENDER, OPTION_TEXT, "NAME",
+                    .help =
+                        "a camera of the scene file (default: the first, else "
+                        "framed from the bounding box)"},
+    [OPT_EYE] = {"eye", 0, CMD_RENDER, OPTION_TRIPLE, "X,Y,Z",
+                 .help = "where the camera is"},
+    [OPT_TARGET] = {"target", 0, CMD_RENDER, OPTION_TRIPLE, "X,Y,Z",
+                    .help = "the point in the middle of the picture"},
+    [OPT_UP] = {"up", 0, CMD_RENDER, OPTION_TRIPLE, "X,Y,Z",
+                .help = "the direction that is up in the picture"},
+    [OPT_FOV] = {"fov", 0, CMD_RENDER, OPTION_NUMBER, "DEG", NULL, 0, 180, true,
+                 "vertical field of view"},
+    [OPT_UP_AXIS] = {"up-axis", 0, CMD_RENDER | CMD_INFO, OPTION_WORD, "Y|Z",
+                     "Y", .help = "the axis that is up in the OBJ"},
+    [OPT_ENV] =
+        {"env", 0, CMD_RENDER, OPTION_TEXT, "FILE|R,G,B|none",
+         .help = "the light from everywhere: an equirectangular picture, a "
+                 "constant radiance, or darkness (default: the scene file's, "
+                 "else a built-in sky)"},
+    [OPT_ENV_ROTATE] = {"env-rotate", 0, CMD_RENDER, OPTION_NUMBER, "DEG", NULL,
+                        -1e6, 1e6, .help = "turn it about the vertical"},
+    [OPT_ENV_SCALE] = {"env-scale", 0, CMD_RENDER, OPTION_NUMBER, "S", NULL, 0,
+                       1e9, .help = "multiply it"},
+    [OPT_LIGHTS] = {"lights", 0, CMD_RENDER, OPTION_WORD, "on|off", "on",
+                    .help = "point and directional lights of the scene"},
+    [OPT_NORMALS] =
+        {"normals", 0, CMD_RENDER | CMD_BENCH_LOAD, OPTION_WORD,
+         "auto|file|smooth|flat", "auto",
+         .help = "auto: the file's, else by smoothing groups, else flat"},
+    [OPT_CREASE] = {"crease", 0, CMD_RENDER | CMD_BENCH_LOAD, OPTION_NUMBER,
+                    "DEG", "180", 0, 180,
+                    .help =
+                        "faces that differ by more are not smoothed together"},
+    [OPT_NO_NAME_RULES] = {"no-name-rules", 0, CMD_RENDER | CMD_INFO,
+                           OPTION_SWITCH,
+                           .help =
+                               "names such as glass or mirror decide nothing"},
+    [OPT_SPP] = {"spp", 0, CMD_RENDER, OPTION_WHOLE, "N", "64", 1, 1 << 24,
+                 .help = "samples a pixel; not limited where --time or --error "
+                         "is given without it"},
+    [OPT_TIME] = {"time", 0, CMD_RENDER, OPTION_NUMBER, "SECONDS", NULL, 0, 1e9,
+                  true, "stop in time to be done this long after the start"},
+    [OPT_ERROR] = {"error", 0, CMD_RENDER, OPTION_NUMBER, "REL", NULL, 0, 1e9,
+                   true,
+                   "stop when the estimated relative error of the "
+                   "picture is below this"},
+    [OPT_MAX_DEPTH] = {"max-depth", 0, CMD_RENDER, OPTION_WHOLE, "N", "0", 0,
+                       1000000,
+                       .help =
+                           "segments of a path: 1 sees lights, 2 adds direct "
+                           "light; 0: no limit, paths end by chance"},
+    [OPT_SEED] = {"seed", 0, CMD_RENDER | CMD_BENCH_RAYS, OPTION_WHOLE, "N",
+                  "0", 0, 9007199254740992.0,
+                  .help = "another seed, other noise"},
+    [OPT_INTEGRATOR] = {"integrator", 0, CMD_RENDER, OPTION_WORD, "auto|naive",
+                        "auto", .help = "how paths look for light"},
+    [OPT_SAMPLER] = {"sampler", 0, CMD_RENDER, OPTION_WORD, "random", "random",
+                     .help = "where random numbers come from"},
+    [OPT_BVH] = {"bvh", 0, CMD_RENDER | CMD_BENCH_RAYS, OPTION_WORD,
+                 "auto|binary|brute", "auto",
+                 .help = "how triangles are found; brute tests every one"},
+    [OPT_EXPOSURE] = {"exposure", 0, CMD_RENDER, OPTION_NUMBER, "STOPS", NULL,
+                      -64, 64,
+                      .help =
+                          "brightness of a PNG, one stop doubles (default: the "
+                          "scene file's, else 0)"},
+    [OPT_TONEMAP] = {"tonemap", 0, CMD_RENDER, OPTION_WORD,
+                     "none|reinhard|aces", "none",
+                     .help =
+                         "curve that brings a PNG's highlights below white"},
+    [OPT_SCENE] = {"scene", 0, CMD_INFO, OPTION_SWITCH,
+                   .help = "print a complete scene file for what is in force"},
+    [OPT_METRIC] = {"metric", 0, CMD_COMPARE, OPTION_WORD,
+                    "rmse|mae|psnr|relmse|max|p99.9", "rmse",
+                    .help = "the one that decides"},
+    [OPT_FAIL] = {"fail", 0, CMD_COMPARE, OPTION_NUMBER, "T", NULL, 0, 1e30,
+                  .help =
+                      "the largest difference that is still equal; for psnr "
+                      "the smallest number of dB (default: none at all)"},
+    [OPT_DIFF] = {"diff", 0, CMD_COMPARE, OPTION_TEXT, "OUT.png",
+                  .help = "write |A - B|, amplified by a printed power of two"},
+    [OPT_Z_TEST] = {"z-test", 0, CMD_COMPARE, OPTION_TEXT, "REF-VARIANCE.pfm",
+                    .help = "decide by a z-test of every pixel instead, given "
+                            "the variance of B's pixels"},
+    [OPT_KIND] =
+        {"kind", 0, CMD_BENCH_RAYS, OPTION_WORD, "primary|ao|aod|bounce|random",
+         "primary",
+         .help = "the rays to make: from a camera, to the sky, the same cut "
+                 "short, after a bounce, between random points"},
+    [OPT_RAYS] = {"rays", 0, CMD_BENCH_RAYS, OPTION_TEXT, "FILE",
+                  .help = "trace the rays of a file instead"},
+    [OPT_HITS] = {"hits", 0, CMD_BENCH_RAYS, OPTION_TEXT, "FILE",
+                  .help = "write what they hit"},
+    [OPT_REPEAT] = {"repeat", 0, CMD_BENCH_LOAD | CMD_BENCH_RAYS, OPTION_WHOLE,
+                    "K", "5", 1, 1000, .help = "runs; the median counts"},
+    [OPT_MAN] = {"man", 0, CMD_HELP, OPTION_SWITCH,
+                 .help = "print the manual page, for man -l -"},
+    [OPT_THREADS] =
+        {"threads", 'j',
+         CMD_RENDER | CMD_INFO | CMD_BENCH_LOAD | CMD_BENCH_RAYS, OPTION_WHOLE,
+         "N", NULL, 1, 1024,
+         .help = "worker threads (default: what CPU affinity, the cgroup's "
+                 "quota and SLURM_CPUS_PER_TASK allow)"},
+    [OPT_STRICT] =
+        {"strict", 0, CMD_RENDER, OPTION_SWITCH,
+         .help = "a warning is an error: exit status 1, nothing written"},
+    [OPT_JSON] = {"json", 0, CMD_ALL & ~CMD_HELP, OPTION_SWITCH,
+                  .help = "print one JSON object on standard output"},
+    [OPT_QUIET] = {"quiet", 'q', CMD_RENDER | CMD_COMPARE, OPTION_SWITCH,
+                   .help = "print errors only"},
+    [OPT_VERBOSE] = {"verbose", 'v', CMD_RENDER | CMD_INFO, OPTION_SWITCH,
+                     .help = "print notes, too"},
+    [OPT_NO_COLOR] = {"no-color", 0, CMD_ALL, OPTION_SWITCH,
+                      .help = "no colours on a terminal, as with NO_COLOR set"},
+    [OPT_HELP] = {"help", 'h', CMD_ALL, OPTION_SWITCH,
+                  .help = "explain the command"},
+};
+
+const char *const later_words[] = {
+    "view",      "ibl",    "merge",     "bench error", "bench raster",
+    "bench ibl", "raster", "wide",      "mis",         "sobol",
+    "gl",        "msaa",   "post",      "checkpoint",  "every",
+    "resume",    "shard",  "pbr-model", "explain",     ".exr",
+    ".part",     "exr",    "part",      NULL};

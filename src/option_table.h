@@ -1,0 +1,116 @@
+// option_table.h — every command and every option, said once.
+
+#ifndef OPTION_TABLE_H
+#define OPTION_TABLE_H
+
+#include <stdbool.h>
+
+// Commands as bits, so that an option can say which ones know it.
+enum {
+  CMD_RENDER = 1,
+  CMD_INFO = 2,
+  CMD_COMPARE = 4,
+  CMD_BENCH_LOAD = 8,
+  CMD_BENCH_RAYS = 16,
+  CMD_HELP = 32,
+  CMD_ALL = 63
+};
+
+// A command: its one or two words, and what it wants after the options.
+typedef struct command {
+  const char *name;      // "bench rays"
+  unsigned bit;          // one of CMD_
+  const char *operands;  // as help shows them
+  int least, most;       // how many operands
+  const char *summary;   // one line
+  const char *details;   // paragraphs for help and man page
+} command;
+
+// What an option's argument is.
+typedef enum option_kind {
+  OPTION_SWITCH,  // none
+  OPTION_TEXT,    // any text
+  OPTION_WORD,    // one of the words that `argument` lists, split at |
+  OPTION_WORDS,   // some of them, split at commas
+  OPTION_WHOLE,   // a whole number, low..high
+  OPTION_NUMBER,  // a number, low..high
+  OPTION_TRIPLE,  // X,Y,Z
+  OPTION_SIZE,    // WxH, whole
+  OPTION_BOX      // X0,Y0,X1,Y1, whole
+} option_kind;
+
+// An option: what the parser accepts, and what help prints.
+typedef struct option {
+  const char *name;  // without the dashes
+  char letter;       // the short form, or 0
+  unsigned commands;
+  option_kind kind;
+  const char *argument;  // as help shows it; the words of OPTION_WORD(S)
+  const char *fallback;  // parsed where the option is not given; or NULL
+  double low, high;      // of numbers; the ends belong to it unless `open`
+  bool open;
+  const char *help;
+} option;
+
+// The options, in the order of help.
+typedef enum option_id {
+  OPT_OUTPUT,
+  OPT_FORMAT,
+  OPT_DEPTH,
+  OPT_RESOLUTION,
+  OPT_CROP,
+  OPT_AOV,
+  OPT_ENGINE,
+  OPT_SHADING,
+  OPT_CAMERA,
+  OPT_EYE,
+  OPT_TARGET,
+  OPT_UP,
+  OPT_FOV,
+  OPT_UP_AXIS,
+  OPT_ENV,
+  OPT_ENV_ROTATE,
+  OPT_ENV_SCALE,
+  OPT_LIGHTS,
+  OPT_NORMALS,
+  OPT_CREASE,
+  OPT_NO_NAME_RULES,
+  OPT_SPP,
+  OPT_TIME,
+  OPT_ERROR,
+  OPT_MAX_DEPTH,
+  OPT_SEED,
+  OPT_INTEGRATOR,
+  OPT_SAMPLER,
+  OPT_BVH,
+  OPT_EXPOSURE,
+  OPT_TONEMAP,
+  OPT_SCENE,
+  OPT_METRIC,
+  OPT_FAIL,
+  OPT_DIFF,
+  OPT_Z_TEST,
+  OPT_KIND,
+  OPT_RAYS,
+  OPT_HITS,
+  OPT_REPEAT,
+  OPT_MAN,
+  OPT_THREADS,
+  OPT_STRICT,
+  OPT_JSON,
+  OPT_QUIET,
+  OPT_VERBOSE,
+  OPT_NO_COLOR,
+  OPT_HELP,
+  OPTION_COUNT
+} option_id;
+
+extern const option option_table[OPTION_COUNT];
+
+// Ended by an entry without a name.
+extern const command command_table[];
+
+// Words that name parts of facet still to come, NULL-ended.
+extern const char *const later_words[];
+
+#endif
