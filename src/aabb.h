@@ -3,7 +3,7 @@
 #ifndef AABB_H
 #define AABB_H
 
-#include "ray.h"
+#include "vec.h"
 
 // An axis-aligned box; empty when any lo component exceeds its hi.
 typedef struct aabb {
@@ -24,12 +24,14 @@ static inline aabb aabb_add(aabb a, vec3 p) {
   return (aabb){vec3_min(a.lo, p), vec3_max(a.hi, p)};
 }
 
-// Half the surface area of b, 0 for the empty box.  The SAH needs only ratios
-// of areas, so the factor 2 is left out.
-static inline float aabb_half_area(aabb b) {
-  vec3 d = vec3_sub(b.hi, b.lo);
-  if (!(d.x >= 0)) return 0;
-  return d.x * d.y + d.y * d.z + d.z * d.x;
+// Half the surface area of b, 0 for the empty box; the SAH needs only ratios.
+// In double, where neither a mesh of size 1e30 nor one of 1e-30 leaves the
+// range.
+static inline double aabb_half_area(aabb b) {
+  double x = (double)b.hi.x - (double)b.lo.x;
+  double y = (double)b.hi.y - (double)b.lo.y;
+  double z = (double)b.hi.z - (double)b.lo.z;
+  return x >= 0 ? x * y + y * z + z * x : 0;
 }
 
 #endif

@@ -6,6 +6,7 @@
 #include "aabb.h"
 #include "arena.h"
 #include "pool.h"
+#include "ray.h"
 
 // Inner (count 0): children are nodes first and first + 1.  Leaf: triangles
 // order[first .. first + count - 1].  32 bytes, two to a cache line.
@@ -16,7 +17,13 @@ typedef struct bvh_node {
   uint32_t count;
 } bvh_node;
 
+// How nodes are split: where the surface area heuristic expects the least
+// work, or through the middle of the longest side.
 typedef enum bvh_method { BVH_SAH, BVH_MEDIAN } bvh_method;
+
+// No leaf lies deeper, whatever the input; the root has depth 0.  No leaf
+// holds more triangles.
+enum { BVH_MAX_DEPTH = 64, BVH_MAX_LEAF = 8 };
 
 // The triangles of a mesh and a tree over those that can be hit: zero-area
 // triangles and those with a corner that is not finite are dropped.

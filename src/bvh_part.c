@@ -1,0 +1,134 @@
+// bvh_part.c — what one thread does to one node, and to all below it.
+
+#include "bvh_part.h"
+
+// A leaf of the median method: nothing is priced, so the size decides.
+enum { MEDIAN_LEAF = 4 };
+
+// How often n triangles must be halved until one is left.
+static int halvings(uint32_t n) {
+  int k = 0;
+  for (; n > 1; n -= n / 2)
+    k++;
+  return k;
+}
+
+// Slices for a node of n triangles: few triangles need few.
+static int bins_for(uint32_t n) {
+  return n < 8 * (SAH_MAX_BINS - 4) ? 4 + (int)(n / 8) : SAH_MAX_BINS;
+}
+
+// Every part keeps depth + halvings <= BVH_MAX_DEPTH: cuts may be as uneven as
+// they like until only halving can keep it.
+sah_grid bvh_part_grid(const bvh_part *p, bvh_method method) {
+  uint32_t n = p->end - p->begin;
+  sah_grid none = {0};
+  if (n < 2 || p->depth + halvings(n) >= BVH_MAX_DEPTH) return none;
+  sah_grid g = sah_grid_of(&p->centres, method == BVH_SAH ? bins_for(n) : 2);
+  bool flat = g.scale[0] == 0 && g.scale[1] == 0 && g.scale[2] == 0;
+  return flat ? none : g;
+}
+
+bool bvh_cut_choose(bvh_cut *cut, const bvh_part *p, const sah_bins *bins,
+                    bvh_method method) {
+  uint32_t n = p->end - p->begin;
+  cut->split = (sah_split){.axis = -1};
+  if (method == BVH_MEDIAN) {
+    if (n <= MEDIAN_LEAF) return false;
+    if (cut->grid.bins > 0)
+      cut->split = sah_middle_split(bins, &cut->grid, &p->centres);
+    return true;
+  }
+  double area = sah_half_area(&p->box);
+  if (cut->grid.bins > 0) cut->split = sah_best_split(bins, &cut->grid, area);
+  if (n > BVH_MAX_LEAF) return true;
+  return cut->split.axis >= 0 && cut->split.cost < area * n;
+}
+
+bvh_node bvh_node_of(const sah_box *b, uint32_t first, uint32_t count) {
+  return (bvh_node){{b->lo[0], b->lo[1], b->lo[2]},
+                    first,
+                    {b->hi[0], b->hi[1], b->hi[2]},
+                    count};
+}
+
+// Halves by position: only the bounds must be found.
+static void part_in_halves(const bvh_part *p, const sah_ref *refs,
+                           bvh_part child[2]) {
+  uint32_t middle = p->begin + (p->end - p->begin + 1) / 2;
+  child[0].end = child[1].begin = middle;
+  for (int side = 0; side < 2; side++) {
+    bvh_part *c = &child[side];
+    c->box = c->centres = sah_box_empty();
+    for (uint32_t i = c->begin; i < c->end; i++) {
+      sah_box_join(&c->box, &refs[i].box);
+      sah_box_join_centre(&c->centres, &refs[i].box);
+    }
+  }
+}
+
+// Left ones to the front, right ones to the back, in place.
+static void part_by_cut(const bvh_part *p, const bvh_cut *cut, sah_ref *refs,
+                        bvh_part child[2]) {
+  sah_box left = sah_box_empty(), right = left;
+  uint32_t i = p->begin, j = p->end;
+  while (i < j) {
+    if (bvh_cut_left(cut, p, &refs[i], i)) {
+      sah_box_join_centre(&left, &refs[i++].box);
+    } else {
+      sah_ref r = refs[i];
+      refs[i] = refs[--j];
+      refs[j] = r;
+      sah_box_join_centre(&right, &r.box);
+    }
+  }
+  child[0].end = child[1].begin = i;
+  child[0].box = cut->split.left;
+  child[1].box = cut->split.right;
+  child[0].centres = left;
+  child[1].centres = right;
+}
+
+// Make node p an inner node and its two parts; false when it became a leaf.
+static bool task_split(bvh_task *t, const bvh_part *p, bvh_part child[2]) {
+  bvh_cut cut = {.grid = bvh_part_grid(p, t->method)};
+  sah_bins bins;
+  if (cut.grid.bins > 0) {
+    sah_bins_clear(&bins, &cut.grid);
+    sah_bins_add(&bins, &cut.grid, t->refs + p->begin, p->end - p->begin);
+  }
+  if (!bvh_cut_choose(&cut, p, &bins, t->method)) {
+    t->nodes[p->node] = bvh_node_of(&p->box, p->begin, p->end - p->begin);
+    if (p->depth > t->depth) t->depth = p->depth;
+    return false;
+  }
+  t->nodes[p->node] = bvh_node_of(&p->box, t->node_count, 0);
+  for (int side = 0; side < 2; side++) {
+    child[side] = (bvh_part){.begin = p->begin, .end = p->end};
+    child[side].node = t->node_count++;
+    child[side].depth = p->depth + 1;
+  }
+  if (cut.split.axis < 0)
+    part_in_halves(p, t->refs, child);
+  else
+    part_by_cut(p, &cut, t->refs, child);
+  return true;
+}
+
+// Depth first, left side first, so that a walk down the left finds its nodes
+// beside each other.  The stack holds one right side a level.
+void bvh_task_run(bvh_task *t) {
+  bvh_part stack[BVH_MAX_DEPTH + 1], child[2];
+  int top = 0;
+  stack[top++] = t->root;
+  stack[0].node = 0;
+  t->node_count = 1;
+  t->depth = t->root.depth;
+  while (top > 0) {
+    bvh_part p = stack[--top];
+    while (task_split(t, &p, child)) {
+      stack[top++] = child[1];
+      p = child[0];
+    }
+  }
+}

@@ -1,0 +1,57 @@
+// bvh_part.h — one node of a tree on its way: decide, part, go below.
+
+#ifndef BVH_PART_H
+#define BVH_PART_H
+
+#include "bvh.h"
+#include "sah.h"
+
+// A node to be: refs begin..end-1 of an array, the bounds of their boxes and
+// those of their centres, and the node's number.
+typedef struct bvh_part {
+  uint32_t begin, end, node;
+  int depth;
+  sah_box box, centres;
+} bvh_part;
+
+// How to part it: a cut of its grid, or halves by position where split.axis
+// is -1.
+typedef struct bvh_cut {
+  sah_grid grid;
+  sah_split split;
+} bvh_cut;
+
+// The grid to bin the part's refs on, before bvh_cut_choose; with 0 bins where
+// the part can only be halved: its centres agree, or the depth runs out.
+sah_grid bvh_part_grid(const bvh_part *p, bvh_method method);
+
+// Decide by the bins of all refs of the part.  False: make it a leaf.
+bool bvh_cut_choose(bvh_cut *cut, const bvh_part *p, const sah_bins *bins,
+                    bvh_method method);
+
+// Whether the ref at a position of the array goes left.
+static inline bool bvh_cut_left(const bvh_cut *cut, const bvh_part *p,
+                                const sah_ref *ref, uint32_t position) {
+  if (cut->split.axis < 0)
+    return position - p->begin < (p->end - p->begin + 1) / 2;
+  return sah_bin(&cut->grid, cut->split.axis, &ref->box) <= cut->split.after;
+}
+
+// A subtree for one thread: refs and root are given, nodes has room for two a
+// ref.  On return the root is nodes[0], inner nodes count from there, leaves
+// count in the array of refs, which is reordered.
+typedef struct bvh_task {
+  bvh_part root;
+  sah_ref *refs;
+  bvh_method method;
+  bvh_node *nodes;
+  uint32_t node_count;
+  int depth;
+} bvh_task;
+
+void bvh_task_run(bvh_task *t);
+
+// A node with the bounds of a box.
+bvh_node bvh_node_of(const sah_box *b, uint32_t first, uint32_t count);
+
+#endif

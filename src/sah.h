@@ -1,0 +1,88 @@
+// sah.h — where to cut a set of triangles in two.
+//
+// The surface area heuristic on bins: triangles are sorted into equal slices
+// by the centres of their boxes, and only the cuts between slices are priced.
+
+#ifndef SAH_H
+#define SAH_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+// A box in the registers' layout: lanes x, y, z and one that means nothing.
+typedef struct sah_box {
+  float lo[4], hi[4];
+} sah_box;
+
+// A triangle while the tree is built, 32 bytes: its box, which spares the
+// builder a walk to the vertices, and its number in the fourth lane of lo.
+typedef union sah_ref {
+  sah_box box;
+  struct {
+    float lo[3];
+    uint32_t triangle;
+    float hi[3];
+    uint32_t unused;
+  } as;
+} sah_ref;
+
+// Most slices along an axis, and the price of one visit to a node, in triangle
+// tests.
+enum { SAH_MAX_BINS = 32 };
+#define SAH_NODE_COST 1.0
+
+// How many slices, and how a centre finds its slice: (centre - lo) * scale.
+// scale is 0 along an axis on which all centres agree.
+typedef struct sah_grid {
+  int bins;
+  float lo[3], scale[3];
+} sah_grid;
+
+// What lies in each slice of each axis.
+typedef struct sah_bins {
+  sah_box box[3][SAH_MAX_BINS];
+  uint32_t count[3][SAH_MAX_BINS];
+} sah_bins;
+
+// A cut behind slice `after` of an axis, -1 for none; left and right are what
+// it parts, cost is in units of one triangle test times an area.
+typedef struct sah_split {
+  int axis, after;
+  double cost;
+  uint32_t left_count;
+  sah_box left, right;
+} sah_split;
+
+// The empty box; a grown to hold b; a grown to hold the centre of b.
+sah_box sah_box_empty(void);
+void sah_box_join(sah_box *a, const sah_box *b);
+void sah_box_join_centre(sah_box *a, const sah_box *b);
+
+// Half the surface area, 0 for an empty box.
+double sah_half_area(const sah_box *b);
+
+// A grid of `bins` slices over centres with the given bounds.
+sah_grid sah_grid_of(const sah_box *centres, int bins);
+
+// The slice of a box along an axis.
+int sah_bin(const sah_grid *g, int axis, const sah_box *b);
+
+// Empty bins; the bins of n triangles added; other bins added.
+void sah_bins_clear(sah_bins *s, const sah_grid *g);
+void sah_bins_add(sah_bins *s, const sah_grid *g, const sah_ref *refs,
+                  size_t n);
+void sah_bins_join(sah_bins *s, const sah_grid *g, const sah_bins *other);
+
+// The cheapest cut along any axis; among equals the first.
+sah_split sah_best_split(const sah_bins *s, const sah_grid *g,
+                         double node_area);
+
+// The cost of every cut along one axis: cost[i] for the cut behind slice i, in
+// the units of sah_split, infinite where a side is empty.
+void sah_costs(const sah_bins *s, const sah_grid *g, int axis, double *cost);
+
+// The cut through the middle of the longest axis.
+sah_split sah_middle_split(const sah_bins *s, const sah_grid *g,
+                           const sah_box *centres);
+
+#endif
