@@ -109,7 +109,7 @@ static void print_text_picture(const picture_facts *f, const char *path) {
 // Say what a picture holds.
 static int info_picture(const options *o, const char *path) {
   arena mem = {0};
-  picture_facts f;
+  picture_facts f = {0};
   error err;
   int code = EXIT_DONE;
   if (!read_picture_facts(&f, path, &mem, &err))

@@ -161,6 +161,33 @@ static int choose_camera(render_job *j) {
   return cmd_fail(j->o, by_flag ? EXIT_USAGE : EXIT_INPUT, "%s", err.text);
 }
 
+// Write the picture; an exit code.
+static int write_picture(render_job *j) {
+  error err;
+  arena once = {0};
+  double start = cmd_seconds();
+  bool ok = output_write(&j->out, &j->result, &once, &err);
+  j->write_seconds = cmd_seconds() - start;
+  arena_free(&once);
+  return ok ? EXIT_DONE : cmd_fail(j->o, EXIT_OUTPUT, "%s", err.text);
+}
+
+// The picture so far, on SIGUSR1.  That it cannot be written is said, and does
+// not end the run.
+static void write_snapshot(void *context, const render_result *so_far) {
+  render_job *j = context;
+  arena once = {0};
+  error err;
+  progress_clear(&j->display);
+  if (strcmp(j->out.path, "-") == 0)
+    cmd_fail(j->o, EXIT_OUTPUT, "no picture so far on standard output");
+  else if (!output_write(&j->out, so_far, &once, &err))
+    cmd_fail(j->o, EXIT_OUTPUT, "%s", err.text);
+  else if (!given(j, OPT_QUIET))
+    fprintf(stderr, "%s: %d spp so far\n", j->out.path, so_far->spp);
+  arena_free(&once);
+}
+
 // What the rest of the flags say to the renderer.
 static void choose_settings(render_job *j) {
   const option_value *v = j->o->value;
@@ -181,22 +208,14 @@ static void choose_settings(render_job *j) {
   s->stop = &signal_stop;
   s->progress = progress_show;
   s->progress_context = &j->display;
+  s->snapshot = &signal_snapshot;
+  s->on_snapshot = write_snapshot;
+  s->snapshot_context = j;
   j->out.exposure =
       v[OPT_EXPOSURE].given ? v[OPT_EXPOSURE].number[0] : j->scene.exposure;
   j->world = (path_world){.scene = &j->scene,
                           .lights = v[OPT_LIGHTS].words == 0,
                           .max_depth = (int)v[OPT_MAX_DEPTH].whole[0]};
-}
-
-// Write the picture; an exit code.
-static int write_picture(render_job *j) {
-  error err;
-  arena once = {0};
-  double start = cmd_seconds();
-  bool ok = output_write(&j->out, &j->result, &once, &err);
-  j->write_seconds = cmd_seconds() - start;
-  arena_free(&once);
-  return ok ? EXIT_DONE : cmd_fail(j->o, EXIT_OUTPUT, "%s", err.text);
 }
 
 // The most memory that the process has had, in bytes.

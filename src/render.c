@@ -257,6 +257,19 @@ static void make_images(render_result *out, const job *j, arena *mem) {
     out->aov[4] = samples_image(&j->color, mem);
 }
 
+// Give the picture so far to whoever asked for it since the last pass.
+static void hand_snapshot(const job *j) {
+  const render_settings *s = j->set;
+  if (s->snapshot == NULL || !*s->snapshot) return;
+  *s->snapshot = 0;
+  arena once = {0};
+  render_result so_far = {.spp = j->end, .error = j->error};
+  so_far.seconds = seconds_now() - j->start;
+  make_images(&so_far, j, &once);
+  s->on_snapshot(s->snapshot_context, &so_far);
+  arena_free(&once);
+}
+
 static void render_passes(job *j, pool *threads) {
   for (int n; (n = pass_samples(j)) > 0;) {
     j->begin = j->end;
@@ -264,6 +277,7 @@ static void render_passes(job *j, pool *threads) {
     atomic_store(&j->done, 0);
     pool_run(threads, (size_t)j->tile_count, render_tile, j);
     j->error = film_error(&j->color);
+    hand_snapshot(j);
   }
   if (j->set->progress != NULL) tell_progress(j, seconds_now());
 }

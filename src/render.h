@@ -38,20 +38,6 @@ typedef struct render_progress {
   double error;  // estimated relative error of the picture, 0: not known
 } render_progress;
 
-typedef struct render_settings {
-  int width, height;
-  int x0, y0, x1, y1;  // crop, half-open; all of the film when x1 is 0
-  int spp;             // total
-  uint64_t seed;
-  render_shading shading;
-  unsigned aovs;
-  double deadline;  // CLOCK_MONOTONIC seconds to stop at; 0: none
-  double error;     // stop at this estimated relative error; 0: never
-  const volatile sig_atomic_t *stop;  // finish the pass when it turns non-zero
-  void (*progress)(void *context, const render_progress *p);  // may be NULL
-  void *progress_context;
-} render_settings;
-
 typedef struct render_result {
   image color;                  // of the crop window
   image aov[RENDER_AOV_COUNT];  // pixels NULL where not asked for
@@ -64,6 +50,25 @@ typedef struct render_result {
   int bad_x, bad_y, bad_sample;  // the first of them, in the full film
   bool stopped;                  // before spp, by *stop
 } render_result;
+
+typedef struct render_settings {
+  int width, height;
+  int x0, y0, x1, y1;  // crop, half-open; all of the film when x1 is 0
+  int spp;             // total
+  uint64_t seed;
+  render_shading shading;
+  unsigned aovs;
+  double deadline;  // CLOCK_MONOTONIC seconds to stop at; 0: none
+  double error;     // stop at this estimated relative error; 0: never
+  const volatile sig_atomic_t *stop;  // finish the pass when it turns non-zero
+  void (*progress)(void *context, const render_progress *p);  // may be NULL
+  void *progress_context;
+  // When *snapshot turns non-zero, it is set to 0 and the picture so far is
+  // handed over after the pass; its images live until on_snapshot returns.
+  volatile sig_atomic_t *snapshot;  // may be NULL
+  void (*on_snapshot)(void *context, const render_result *so_far);
+  void *snapshot_context;
+} render_settings;
 
 // Render into images that live in mem.
 void render_run(render_result *out, const path_world *world,
