@@ -47,10 +47,10 @@ typedef struct ray_source {
 void rays_generate(ray_set *out, ray_kind kind, const ray_source *from,
                    arena *mem);
 
-// Trace all rays `repeat` >= 1 times, after once for warming up, on all
-// threads, and return the median of the seconds.  hits has s->count elements;
-// a miss gets HIT_NONE and t = tmax, an occluded ray of an `any` set gets
-// triangle 0 and t = tmax.
+// Trace all rays `repeat` times, after once for warming up, on all threads,
+// and return the median of the seconds; with repeat 0, those of the warm-up.
+// hits has s->count elements; a miss gets HIT_NONE and t = tmax, an occluded
+// ray of an `any` set gets triangle 0 and t = tmax.
 double rays_trace(hit *hits, const ray_set *s, tracer tree, pool *threads,
                   int repeat);
 
