@@ -84,7 +84,7 @@ static void corner_normals(facet *f, const mesh *m, uint32_t triangle,
 // lost before.
 static float rounding_error(float p, float p0, float p1, float p2) {
   float sum = fabsf(p0) + fabsf(p1) + fabsf(p2);
-  return fabsf(p) * 0x1.000008p-24f + sum * 0x1p-50f + FLT_TRUE_MIN;
+  return fabsf(p) * 0x1.00001p-24f + sum * 0x1p-50f + FLT_TRUE_MIN;
 }
 
 // Taken from corner 0, so that the point is in the triangle's plane whatever
@@ -94,6 +94,23 @@ static point64 facet_point(const facet *f) {
   point64 a = point64_mad(point64_of(f->p[1]), -1, o);
   point64 b = point64_mad(point64_of(f->p[2]), -1, o);
   return point64_mad(point64_mad(o, f->b[1], a), f->b[2], b);
+}
+
+// Steps inwards are this many p_errors long: farther than an origin can be out
+// sideways, by the rounding of p, by that of the origin, and by its way off
+// the facet where the next facet leans in.
+#define INWARD_STEPS 4
+
+// From p towards the middle of the triangle.
+static vec3 inward_step(const facet *f, point64 p, vec3 p_error) {
+  point64 middle = {0, 0, 0};
+  for (int i = 0; i < 3; i++)
+    middle = point64_mad(middle, 1.0 / 3, point64_of(f->p[i]));
+  point64 way = point64_mad(middle, -1, p);
+  double length = sqrt(point64_dot(way, way));
+  double step = INWARD_STEPS * (double)(p_error.x + p_error.y + p_error.z);
+  double share = step < length ? step / length : 1;
+  return point64_round(point64_mad((point64){0, 0, 0}, share, way));
 }
 
 // How far the smooth surface is from the facet at p: each corner's tangent
@@ -152,6 +169,7 @@ surface surface_at(const scene *s, const hit *h, vec3 d) {
                       rounding_error(at.p.y, f.p[0].y, f.p[1].y, f.p[2].y),
                       rounding_error(at.p.z, f.p[0].z, f.p[1].z, f.p[2].z)};
 
+  at.inward = inward_step(&f, p, at.p_error);
   at.uv = scene_uv(s, h);
   at.color = color_at(&s->mesh, h, &f);
   if (s->material_of != NULL)

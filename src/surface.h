@@ -13,6 +13,7 @@ typedef struct surface {
   vec3 p_error;   // |true point - p| <= p_error, componentwise
   vec3 p_smooth;  // p lifted onto the smooth surface that ns suggests, towards
                   // the side that the ray came from
+  vec3 inward;    // a step of a few p_errors towards the triangle's middle
   vec3 ng, ns;
   bool front;   // the ray came from ng's side
   bool smooth;  // some corner has a normal of its own
@@ -25,9 +26,9 @@ typedef struct surface {
 // The surface at a hit of a ray with direction d on scene s.
 surface surface_at(const scene *s, const hit *h, vec3 d);
 
-// A ray that leaves the surface along unit w from p, displaced along ng by no
-// more than p's error: it does not meet the triangle it left, and does not
-// start behind anything else.  Which side it starts on is the sign of w . ng.
+// A ray that leaves the surface along unit w from p, displaced along ng and
+// inwards by a few of p's errors: it does not meet the triangle it left, and
+// does not start behind anything else.  It starts on the side of w.
 ray surface_ray(const surface *s, vec3 w);
 
 // The same from p_smooth, for diffuse bounces and shadow rays on interpolated
@@ -59,13 +60,6 @@ vec3 surface_face(vec3 ns, vec3 wo);
 
 // ns after bump or normal map, when the material has one.
 vec3 surface_mapped_normal(const scene *s, const surface *at, const hit *h);
-
-// The normal about which the material of `at` scatters light towards unit wo,
-// which points to where the ray came from: mapped, then bent for mirror and
-// glass, faced otherwise.  It is on wo's side, except for glass, where it is
-// on ng's.
-vec3 surface_shading_normal(const scene *s, const surface *at, const hit *h,
-                            vec3 wo);
 
 // Unit w, moved as little as it takes to lie on the side of the facet that wo
 // is on (transmitted: the other one).  It makes up for the last bits of a

@@ -148,16 +148,3 @@ vec3 surface_mapped_normal(const scene *s, const surface *at, const hit *h) {
   if (bump) n = bumped(&m->map_bump, at->uv, n, dpdu, dpdv);
   return surface_lean(n, at->ng);
 }
-
-vec3 surface_shading_normal(const scene *s, const surface *at, const hit *h,
-                            vec3 wo) {
-  float side = at->front ? 1 : -1;
-  vec3 ng = vec3_scale(at->ng, side);
-  vec3 n = vec3_scale(surface_mapped_normal(s, at, h), side);
-  const material *m = at->material;
-  if (m != NULL && m->kind == MATERIAL_MIRROR) n = surface_bend(n, ng, wo);
-  if (m != NULL && m->kind == MATERIAL_GLASS)
-    n = surface_bend_glass(n, ng, wo, at->front ? m->ni : 1 / m->ni);
-  n = surface_face(n, wo);
-  return m != NULL && m->kind == MATERIAL_GLASS ? vec3_scale(n, side) : n;
-}

@@ -3,38 +3,12 @@
 
 #include "surface.h"
 
-#include <string.h>
-
-// The next float above x, by counting up its bits; infinity stays.
-static float float_up(float x) {
-  if (x == 0) return 0x1p-149f;
-  if (!(x < INFINITY)) return x;
-  uint32_t bits;
-  memcpy(&bits, &x, sizeof bits);
-  if (x > 0)
-    bits++;
-  else
-    bits--;
-  memcpy(&x, &bits, sizeof bits);
-  return x;
-}
-
-// x + dx, rounded so that the step taken is not shorter than dx.  The
-// difference of two neighbouring floats is exact in double.
-static float step_away(float x, float dx) {
-  float y = x + dx;
-  double step = (double)y - (double)x;
-  if (dx > 0 && step < (double)dx) return float_up(y);
-  if (dx < 0 && step > (double)dx) return -float_up(-y);
-  return y;
-}
-
-// p, moved along unit n until it is on n's side of every plane across n within
-// `bound` of p.  The factor makes up for the rounding of n and of this sum.
-static vec3 displaced(vec3 p, vec3 bound, vec3 n) {
-  float distance = vec3_dot(vec3_abs(n), bound) * (1 + 0x1p-20f);
-  return (vec3){step_away(p.x, distance * n.x), step_away(p.y, distance * n.y),
-                step_away(p.z, distance * n.z)};
+// p moved inwards, and along unit n until it is on n's side of the facet.
+// Twice the bound: once for the error of p, once for the rounding of the sum;
+// and a little for that of n.
+static vec3 displaced(vec3 p, vec3 bound, vec3 inward, vec3 n) {
+  float distance = 2 * vec3_dot(vec3_abs(n), bound) * (1 + 0x1p-18f);
+  return vec3_add(p, vec3_mad(inward, distance, n));
 }
 
 // ng or its opposite: the one on w's side.
@@ -48,17 +22,17 @@ static vec3 near_side(const surface *s) {
 }
 
 ray surface_ray(const surface *s, vec3 w) {
-  return ray_from(displaced(s->p, s->p_error, side_of(s, w)), w);
+  return ray_from(displaced(s->p, s->p_error, s->inward, side_of(s, w)), w);
 }
 
 // The error of p_smooth: it may be larger than p, and so its last digit.
 static vec3 smooth_error(const surface *s) {
-  return vec3_mad(s->p_error, 0x1.000008p-24f,
+  return vec3_mad(s->p_error, 0x1.00001p-24f,
                   vec3_abs(vec3_sub(s->p_smooth, s->p)));
 }
 
 ray surface_smooth_ray(const surface *s, vec3 w) {
-  vec3 o = displaced(s->p_smooth, smooth_error(s), near_side(s));
+  vec3 o = displaced(s->p_smooth, smooth_error(s), s->inward, near_side(s));
   return ray_from(o, w);
 }
 
