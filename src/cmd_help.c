@@ -39,13 +39,18 @@ static void write_flag(char *text, size_t size, const option *o) {
            o->argument != NULL ? " " : "", o->argument ? o->argument : "");
 }
 
+// The explanation and the default.
+static void write_help(char *text, size_t size, const option *o) {
+  const char *fallback = o->fallback ? o->fallback : "";
+  snprintf(text, size, "%s%s%s%s", o->help, o->fallback ? " (default: " : "",
+           fallback, o->fallback ? ")" : "");
+}
+
 // One option: the flag, then the explanation and the default.
 static void print_option(FILE *out, const option *o) {
   char flag[128], help[512];
   write_flag(flag, sizeof flag, o);
-  snprintf(help, sizeof help, "%s%s%s%s", o->help,
-           o->fallback ? " (default: " : "", o->fallback ? o->fallback : "",
-           o->fallback ? ")" : "");
+  write_help(help, sizeof help, o);
   int at = fprintf(out, "  %s", flag);
   if (at + 2 > HELP_INDENT) {
     fputc('\n', out);
@@ -106,9 +111,9 @@ static void print_roff_command(FILE *out, const command *c) {
     write_flag(flag, sizeof flag, o);
     fputs(".TP\n.B ", out);
     print_roff(out, flag);
-    print_roff(out, o->help);
-    if (o->fallback != NULL) fputs("Default: ", out);
-    if (o->fallback != NULL) print_roff(out, o->fallback);
+    char help[512];
+    write_help(help, sizeof help, o);
+    print_roff(out, help);
   }
 }
 

@@ -9,7 +9,7 @@
 #include <string.h>
 
 // The most words that a list of candidates for the nearest one can have.
-enum { CANDIDATES = 128 };
+enum { CANDIDATES = 32 };
 
 static span span_of(const char *text) {
   return (span){text, strlen(text)};
@@ -63,33 +63,48 @@ static bool find_word(unsigned *place, const option *o, span s, error *err) {
               near ? near : "");
 }
 
+// Say that the argument is not as many numbers as it should be, or one of them
+// is out of range.
+static bool bad_number(const option_value *v, const option *o, error *err) {
+  bool alone = o->kind == OPTION_WHOLE || o->kind == OPTION_NUMBER;
+  if (o->kind == OPTION_TRIPLE)
+    return fail(err, "--%s wants %s, not '%s'", o->name, o->argument, v->text);
+  return fail(err, "--%s wants %s%s from %.10g to %.10g%s, not '%s'", o->name,
+              !alone                    ? o->argument
+              : o->kind == OPTION_WHOLE ? "a whole number"
+                                        : "a number",
+              alone ? "" : ", each", o->low, o->high,
+              o->open ? " (these excluded)" : "", v->text);
+}
+
 // Numbers separated by commas (or by x, for a size), exactly n of them.
 static bool find_numbers(option_value *v, const option *o, int n, error *err) {
   span rest = span_of(v->text);
-  bool whole = o->kind == OPTION_WHOLE || o->kind == OPTION_SIZE ||
-               o->kind == OPTION_BOX;
-  bool limited = o->kind != OPTION_TRIPLE;
+  char separator = o->kind == OPTION_SIZE ? 'x' : ',';
+  bool real = o->kind == OPTION_NUMBER || o->kind == OPTION_TRIPLE;
   for (int i = 0; i < n; i++) {
-    span part =
-        n == 1 ? rest : split_off(&rest, o->kind == OPTION_SIZE ? 'x' : ',');
-    bool last = i + 1 == n;
-    double x = 0;
+    // The last number takes all that is left, with whatever is too much.
+    span part = i + 1 == n ? rest : split_off(&rest, separator);
     bool good =
-        whole ? span_int(part, &v->whole[i]) : span_float(part, &v->number[i]);
-    if (good) x = whole ? (double)v->whole[i] : (double)v->number[i];
-    if (limited)
-      good = good && (o->open ? x > o->low && x < o->high
-                              : x >= o->low && x <= o->high);
-    if (good && isfinite(x) && (n == 1 || !last || rest.length == 0)) continue;
-    if (!limited)
-      return fail(err, "--%s wants %s, not '%s'", o->name, o->argument,
-                  v->text);
-    return fail(err, "--%s wants %s%s %.10g to %.10g%s, not '%s'", o->name,
-                n > 1   ? o->argument
-                : whole ? "a whole number"
-                        : "a number",
-                n > 1 ? ", each from" : " from", o->low, o->high,
-                o->open ? " (these excluded)" : "", v->text);
+        real ? span_float(part, &v->number[i]) : span_int(part, &v->whole[i]);
+    if (!good) return bad_number(v, o, err);
+    double x = real ? (double)v->number[i] : (double)v->whole[i];
+    good = o->open ? x > o->low && x < o->high : x >= o->low && x <= o->high;
+    if (o->kind == OPTION_TRIPLE) good = isfinite(x);
+    if (!good) return bad_number(v, o, err);
+  }
+  return true;
+}
+
+// Some words separated by commas, each a bit.
+static bool find_words(option_value *v, const option *o, error *err) {
+  v->words = 0;
+  span rest = span_of(v->text);
+  for (bool more = true; more;) {
+    more = memchr(rest.at, ',', rest.length) != NULL;
+    unsigned place;
+    if (!find_word(&place, o, split_off(&rest, ','), err)) return false;
+    v->words |= 1u << place;
   }
   return true;
 }
@@ -100,15 +115,7 @@ static bool read_value(option_value *v, const option *o, error *err) {
   case OPTION_SWITCH:
   case OPTION_TEXT: return true;
   case OPTION_WORD: return find_word(&v->words, o, span_of(v->text), err);
-  case OPTION_WORDS: {
-    v->words = 0;
-    for (span rest = span_of(v->text); rest.length > 0;) {
-      unsigned place;
-      if (!find_word(&place, o, split_off(&rest, ','), err)) return false;
-      v->words |= 1u << place;
-    }
-    return true;
-  }
+  case OPTION_WORDS: return find_words(v, o, err);
   case OPTION_WHOLE:
   case OPTION_NUMBER: return find_numbers(v, o, 1, err);
   case OPTION_SIZE: return find_numbers(v, o, 2, err);
@@ -146,8 +153,11 @@ static bool unknown_option(const command *c, span name, error *err) {
     if ((option_table[i].commands & c->bit) != 0)
       list[n++] = option_table[i].name;
   const char *near = text_nearest(name, list);
-  return fail(err, "unknown option --%.*s%s%s", (int)name.length, name.at,
-              near ? "; the nearest is --" : "", near ? near : "");
+  if (near != NULL)
+    return fail(err, "unknown option --%.*s; the nearest is --%s",
+                (int)name.length, name.at, near);
+  return fail(err, "unknown option --%.*s; 'facet help %s' lists them",
+              (int)name.length, name.at, c->name);
 }
 
 // What is left of the command line while it is parsed.
@@ -215,28 +225,38 @@ static bool read_fallbacks(options *out, error *err) {
   return true;
 }
 
-const command *command_of(int argc, char **argv, int *words, error *err) {
+// Say that there is no such command.
+static void unknown_command(const char *first, const char *both, error *err) {
   const char *list[CANDIDATES] = {NULL};
-  char two[128] = "";
-  if (argc > 1) snprintf(two, sizeof two, "%s", argv[1]);
-  if (argc > 2) snprintf(two, sizeof two, "%s %s", argv[1], argv[2]);
-  for (const command *c = command_table; c->name != NULL; c++) {
-    bool both = strchr(c->name, ' ') != NULL;
-    *words = both ? 2 : 1;
-    if (argc > *words - 1 && strcmp(both ? two : argv[1], c->name) == 0)
-      return c;
+  for (const command *c = command_table; c->name != NULL; c++)
     list[c - command_table] = c->name;
+  bool half = strcmp(first, "bench") == 0;
+  const char *said = half ? both : first;
+  const char *near = text_nearest(span_of(said), list);
+  const char *dot = strrchr(first, '.');
+  if (is_later(span_of(said)))
+    fail(err, "%s: not in this version of facet", said);
+  else if (half)
+    fail(err, "bench what? There are 'bench load' and 'bench rays'");
+  else if (dot != NULL && (!strcmp(dot, ".obj") || !strcmp(dot, ".scene")))
+    fail(err, "unknown command '%s'; to make a picture: facet render %s", said,
+         said);
+  else if (near != NULL)
+    fail(err, "unknown command '%s'; the nearest is '%s'", said, near);
+  else
+    fail(err, "unknown command '%s'; 'facet help' lists them", said);
+}
+
+const command *command_of(int argc, char **argv, int *words, error *err) {
+  char both[128];
+  snprintf(both, sizeof both, "%s%s%s", argv[1], argc > 2 ? " " : "",
+           argc > 2 ? argv[2] : "");
+  for (const command *c = command_table; c->name != NULL; c++) {
+    bool two = strchr(c->name, ' ') != NULL;
+    *words = two ? 2 : 1;
+    if (strcmp(two ? both : argv[1], c->name) == 0) return c;
   }
-  bool half = argc > 1 && strcmp(argv[1], "bench") == 0;
-  span said = span_of(half ? two : argv[1]);
-  if (is_later(said) || is_later(span_of(argv[1])))
-    fail(err, "%s: not in this version of facet", said.at);
-  else {
-    const char *near = text_nearest(said, list);
-    if (half && argc < 3) near = "bench load' or 'bench rays";
-    fail(err, "unknown command '%s'%s%s%s", said.at,
-         near ? "; the nearest is '" : "", near ? near : "", near ? "'" : "");
-  }
+  unknown_command(argv[1], both, err);
   return NULL;
 }
 

@@ -33,8 +33,8 @@ typedef struct options {
 bool options_parse(options *out, int argc, char **argv, const char **operands,
                    error *err);
 
-// The command whose words are at the front of argv[1..argc-1], and how many
-// words that took; NULL when there is none, with the reason in err.
+// The command whose words are at the front of argv[1..argc-1], argc > 1, and
+// how many words that took; NULL when there is none, with the reason in err.
 const command *command_of(int argc, char **argv, int *words, error *err);
 
 // Append to text (of the given size) the i-th of the words that an option's

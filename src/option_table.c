@@ -57,11 +57,12 @@ const option option_table[OPTION_COUNT] = {
         {"crop", 0, CMD_RENDER, OPTION_BOX, "X0,Y0,X1,Y1", NULL, 0, 65535,
          .help = "render only these pixels of the full picture, half-open, "
                  "from the top left"},
-    [OPT_AOV] = {"aov", 0, CMD_RENDER, OPTION_WORDS,
-                 "normal,depth,albedo,variance,samples",
-                 .help =
-                     "also write these, as linear PFM files beside the output: "
-                     "NAME.normal.pfm beside NAME.png"},
+    [OPT_AOV] =
+        {"aov", 0, CMD_RENDER, OPTION_WORDS,
+         "normal,depth,albedo,variance,samples",
+         .help =
+             "also write these, or some of them, as linear PFM files beside "
+             "the output: NAME.normal.pfm beside NAME.png"},
     [OPT_ENGINE] = {"engine", 0, CMD_RENDER, OPTION_WORD, "auto|path", "auto",
                     .help = "how light is computed"},
     [OPT_SHADING] = {"shading", 0, CMD_RENDER, OPTION_WORD,
