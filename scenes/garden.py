@@ -145,7 +145,7 @@ def ground():
 def masonry():
     lime = material("lime_wash", (0.66, 0.58, 0.47))
     brick = material("brick", (0.36, 0.12, 0.065))
-    outline = wall(7.4, 2.35, 3.0, 1.5, 1.15, 24)
+    outline = wall(7.4, 2.35, 3.55, 1.5, 1.15, 24)
     add("wall", extruded(outline, 0.4), lime, (-0.9, 3.1, 0))
     add("coping", boxes([((-1.0, 3.0, 2.35), (6.6, 3.6, 2.5))]), brick)
 
@@ -171,9 +171,9 @@ def trees():
     autumn = material("leaf_autumn", (0.55, 0.19, 0.03), **gloss)
     tree("tree_left", (-4.2, 4.6, 0), 1.5, (1.45, 2.2), summer, bark,
          ((1.0, 0.3, 2.1, 0.85), (-1.1, -0.2, 2.3, 0.9)))
-    tree("tree_gate", (1.1, 6.2, 0), 1.3, (1.15, 2.75), spring, bark,
+    tree("tree_gate", (0.6, 6.4, 0), 1.3, (1.2, 2.9), spring, bark,
          ((-0.9, 0.2, 2.6, 0.7),))
-    tree("tree_right", (5.0, 5.6, 0), 1.5, (1.3, 2.75), autumn, bark,
+    tree("tree_right", (5.4, 6.0, 0), 1.5, (1.3, 2.75), autumn, bark,
          ((-1.05, -0.1, 2.9, 0.75), (1.0, 0.2, 2.6, 0.8)))
     for i, (x, y, r, leaf) in enumerate((
             (-12, 17, 1.9, spring), (-8.5, 20, 2.2, summer), (-3.0, 23, 2.0, autumn),
@@ -185,16 +185,15 @@ def trees():
 def balls():
     glass = material("glass", (1, 1, 1), 0, specular=0.5, Transmission=1, IOR=1.5)
     iron = material("iron", (0.78, 0.76, 0.73), 0, 1, specular=0.76)
-    add("ball_glass", icosphere(0.85, 5), glass, (-2.15, -0.35, 0.06 + 0.85), True)
-    add("ball_iron_mirror", icosphere(1.05, 5), iron, (0.45, 0.95, 0.06 + 1.05), True)
+    add("ball_glass", icosphere(0.85, 5), glass, (-2.45, -0.75, 0.06 + 0.85), True)
+    add("ball_iron_mirror", icosphere(1.05, 5), iron, (-0.15, 0.55, 0.06 + 1.05), True)
     row = (("gold", (1.0, 0.71, 0.29), 0.9, 0.35),
            ("copper", (0.93, 0.46, 0.32), 0.9, 0.6),
            ("lacquer", (0.45, 0.02, 0.02), 0.05, 0.25),
            ("porcelain", (0.05, 0.12, 0.42), 0.0, 0.1),
            ("chalk", (0.75, 0.73, 0.70), 0.0, 1.0))
     for i, (name, color, metallic, roughness) in enumerate(row):
-        angle = math.radians(205 + 31 * i)
-        at = (2.1 + 1.75 * math.cos(angle), -0.4 + 1.75 * math.sin(angle), 0.06 + 0.36)
+        at = (0.1 + 0.9 * i, -2.75 + 0.16 * i * i, 0.06 + 0.36)
         add("ball_pbr_" + name, icosphere(0.36, 4),
             material("pbr_" + name, color, roughness, metallic,
                      specular=0.7 if metallic > 0.5 else 0.04 if roughness < 1 else 0), at, True)
