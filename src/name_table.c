@@ -1,0 +1,56 @@
+// name_table.c
+
+#include "name_table.h"
+
+#include <string.h>
+
+// Source: Fowler, Noll, Vo: FNV-1a, 64 bits.
+static uint64_t name_hash(span s) {
+  uint64_t h = 14695981039346656037u;
+  for (size_t i = 0; i < s.length; i++)
+    h = (h ^ (unsigned char)s.at[i]) * 1099511628211u;
+  return h ^ h >> 32;
+}
+
+// The slot of name, or the free slot where it belongs.
+static size_t name_slot(const name_table *t, span name) {
+  size_t i = (size_t)name_hash(name) & (t->slot_count - 1);
+  while (t->slots[i] != 0 && !span_is(name, t->names[t->slots[i] - 1]))
+    i = (i + 1) & (t->slot_count - 1);
+  return i;
+}
+
+// Twice the slots, at least 64.
+static void name_table_grow(name_table *t) {
+  size_t room = 0;
+  size_t n = t->slot_count == 0 ? 64 : 2 * t->slot_count;
+  array_free(t->slots);
+  t->slots = array_grow(NULL, &room, n, sizeof *t->slots);
+  memset(t->slots, 0, n * sizeof *t->slots);
+  t->slot_count = n;
+  for (size_t i = 0; i < t->count; i++) {
+    span name = {t->names[i], strlen(t->names[i])};
+    t->slots[name_slot(t, name)] = (uint32_t)i + 1;
+  }
+}
+
+int name_table_add(name_table *t, span name, arena *mem) {
+  if (2 * t->count >= t->slot_count) name_table_grow(t);
+  size_t slot = name_slot(t, name);
+  if (t->slots[slot] != 0) return (int)t->slots[slot] - 1;
+  t->names = array_grow(t->names, &t->room, t->count + 1, sizeof *t->names);
+  t->names[t->count++] = span_copy(mem, name);
+  t->slots[slot] = (uint32_t)t->count;
+  return (int)t->count - 1;
+}
+
+int name_table_find(const name_table *t, span name) {
+  if (t->slot_count == 0) return -1;
+  return (int)t->slots[name_slot(t, name)] - 1;
+}
+
+void name_table_free(name_table *t) {
+  array_free(t->names);
+  array_free(t->slots);
+  *t = (name_table){0};
+}

@@ -1,0 +1,129 @@
+// obj_chunk.h — one piece of an OBJ file, parsed by one thread by itself.
+
+#ifndef OBJ_CHUNK_H
+#define OBJ_CHUNK_H
+
+#include "error.h"
+#include "vec.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+// A corner of a face: position, texture coordinate, normal, counted from 0.
+// A positive index of the file counts from the file's start and is kept less
+// one.  A negative one counts back from its line: as a chunk does not know
+// what came before it, that one becomes OBJ_RELATIVE + OBJ_BACK + the place
+// in the chunk, which may be below 0.  OBJ_NONE where there is none.
+typedef struct obj_corner {
+  uint32_t position, texcoord, normal;
+} obj_corner;
+
+#define OBJ_NONE UINT32_MAX
+
+// The flag of an index that counts from the chunk's start.
+#define OBJ_RELATIVE 0x80000000u
+
+// Relative indices reach this far back; it leaves room for the vertices of
+// one chunk above.
+#define OBJ_BACK (0x7fffffffu - (1u << 24))
+
+// What statements between faces say.
+typedef enum obj_event_kind {
+  OBJ_EVENT_OBJECT,
+  OBJ_EVENT_GROUP,
+  OBJ_EVENT_MATERIAL,
+  OBJ_EVENT_SMOOTH,
+  OBJ_EVENT_LIBRARY
+} obj_event_kind;
+
+// One of them, in force from the triangle with this number in the chunk.
+typedef struct obj_event {
+  obj_event_kind kind;
+  uint32_t triangle;
+  size_t name, length;  // in the chunk's names
+  int64_t smooth;
+} obj_event;
+
+// What is counted, with the line where it was first seen.
+typedef enum obj_tally_kind {
+  OBJ_TALLY_SHORT_FACE,
+  OBJ_TALLY_NOT_FINITE,
+  OBJ_TALLY_BAD_SMOOTH,
+  OBJ_TALLY_EXTRA,
+  OBJ_TALLY_POINT,
+  OBJ_TALLY_LINE,
+  OBJ_TALLY_FREE_FORM,
+  OBJ_TALLY_DISPLAY,
+  OBJ_TALLY_UNKNOWN,
+  OBJ_TALLY_COUNT
+} obj_tally_kind;
+
+typedef struct obj_tally {
+  uint64_t count, line;
+} obj_tally;
+
+// A keyword that facet does not know, by its first line.
+typedef struct obj_unknown {
+  char keyword[24];  // cut short, with a NUL
+  uint64_t line;
+} obj_unknown;
+
+// Keywords that are remembered; statements are counted beyond.
+enum { OBJ_UNKNOWN_MAX = 64 };
+
+// Everything a piece says.  Lines count from 1 at its start.  Start with {0}
+// but for watched_face.
+typedef struct obj_chunk {
+  vec3 *positions, *colors, *normals;  // colors: NULL or one per position
+  vec2 *texcoords;
+  obj_corner *corners;
+  uint32_t *faces;  // corners of each
+  obj_event *events;
+  char *names;
+  obj_unknown *unknown;
+  size_t position_count, normal_count, texcoord_count, corner_count;
+  size_t face_count, event_count, name_bytes, unknown_count;
+  size_t position_room, color_room, normal_room, texcoord_room, corner_room;
+  size_t face_room, event_room, name_room, unknown_room;
+  size_t triangle_count;
+  uint64_t line_count;
+  obj_tally tally[OBJ_TALLY_COUNT];
+  bool has_texcoord, has_normal;  // some corner has one
+  // The first malformed statement; parsing stops there.
+  error problem;
+  uint64_t problem_line;  // 0: none
+  // For messages about a face of which only the number is known: its line,
+  // and how many positions the chunk had there.
+  size_t watched_face;  // SIZE_MAX: none
+  uint64_t watched_line;
+  size_t watched_positions;
+} obj_chunk;
+
+// Append one vertex or one corner.
+void obj_add_position(obj_chunk *c, vec3 p);
+void obj_add_normal(obj_chunk *c, vec3 n);
+void obj_add_texcoord(obj_chunk *c, vec2 t);
+void obj_add_corner(obj_chunk *c, obj_corner corner);
+
+// The corners from `first` on are a face, at least three.
+void obj_add_face(obj_chunk *c, size_t first, uint64_t line);
+
+// What an index as written, not 0, becomes in a corner when the chunk has
+// `count` elements of its kind; false when it is too far from there.
+static inline bool obj_index(long long written, size_t count, uint32_t *out) {
+  if (written > 0) {
+    if (written > (long long)OBJ_RELATIVE - 1) return false;
+    *out = (uint32_t)(written - 1);
+    return true;
+  }
+  if (written < -(long long)OBJ_BACK) return false;
+  *out = OBJ_RELATIVE +
+         (uint32_t)((long long)OBJ_BACK + (long long)count + written);
+  return true;
+}
+
+// Release parts of it, or all.
+void obj_chunk_free_vertices(obj_chunk *c);
+void obj_chunk_free(obj_chunk *c);
+
+#endif

@@ -1,0 +1,52 @@
+// obj_merge.h — chunks of an OBJ file put together into one mesh.
+
+#ifndef OBJ_MERGE_H
+#define OBJ_MERGE_H
+
+#include "mesh.h"
+#include "obj_chunk.h"
+
+// What came before a chunk: where its things go in the mesh.
+typedef struct obj_place {
+  size_t position, normal, texcoord, face, triangle;
+  uint64_t line;
+} obj_place;
+
+// Faces of a chunk with some flaw: how many, and the first (in the chunk).
+typedef struct obj_flaw {
+  size_t count, first;
+} obj_flaw;
+
+// What the faces of a chunk turned out to be.
+typedef struct obj_findings {
+  obj_flaw position, texcoord, normal;  // an index out of range
+  int64_t bad_position;                 // the first such, from 0
+  obj_flaw polygon;                     // crosses itself or has no area
+  bool has_texcoord, has_normal;        // some index was right
+} obj_findings;
+
+// Memory of one worker, freed by obj_scratch_free.
+typedef struct obj_scratch {
+  vec3 *points;
+  uint32_t *corners;
+  size_t point_room, corner_room;
+  arena mem;
+} obj_scratch;
+
+// Where each of n chunks goes; places[n] is the total.
+void obj_places(const obj_chunk *chunks, size_t n, obj_place *places);
+
+// Copy the vertices of a chunk to their place in m.
+void obj_merge_vertices(mesh *m, const obj_chunk *c, const obj_place *at);
+
+// Resolve the indices of a chunk and cut its faces into triangles, after the
+// vertices of all chunks are in place.
+obj_findings obj_merge_faces(mesh *m, obj_chunk *c, const obj_place *at,
+                             obj_scratch *scratch);
+void obj_scratch_free(obj_scratch *s);
+
+// Names, libraries and runs of m from the events of n chunks.
+void obj_merge_events(mesh *m, const obj_chunk *chunks, const obj_place *places,
+                      size_t n, arena *mem);
+
+#endif
