@@ -9,6 +9,9 @@
 #include "slab.h"
 #include "triangle.h"
 
+// A function whose flags the compiler must know where it is called.
+#define KERNEL static inline __attribute__((always_inline))
+
 // What one ray needs on its way, and the best hit so far: t = tmax of the ray
 // and HIT_NONE before the first.
 typedef struct bvh_walk {
@@ -27,7 +30,7 @@ typedef struct bvh_later {
 
 // False for a ray that can hit nothing: no triangle, no direction, or a
 // component that is not finite.
-static inline bool walk_start(bvh_walk *w, const bvh *b, const ray *r) {
+static bool walk_start(bvh_walk *w, const bvh *b, const ray *r) {
   vec3 d = ray_flush(r->d);
   if (b->nodes == NULL || !vec3_finite(r->o) || !vec3_finite(d)) return false;
   if (d.x == 0 && d.y == 0 && d.z == 0) return false;
@@ -42,8 +45,8 @@ static inline bool walk_start(bvh_walk *w, const bvh *b, const ray *r) {
 
 // Test triangles order[first .. first + count - 1] and keep the best hit: the
 // smallest t, of equal t the lowest triangle.  With `any`, stop at the first.
-static inline bool walk_triangles(bvh_walk *w, uint32_t first, uint32_t count,
-                                  bool any) {
+KERNEL bool walk_triangles(bvh_walk *w, uint32_t first, uint32_t count,
+                           bool any) {
   bool found = false;
   for (uint32_t i = first; i < first + count; i++) {
     uint32_t triangle = w->b->order[i];
@@ -66,7 +69,7 @@ static inline bool walk_triangles(bvh_walk *w, uint32_t first, uint32_t count,
 // Visit the nodes that the ray enters no later than the best hit; `<=` and not
 // `<`, because a box that begins exactly there may hold a lower triangle at
 // the same t.  v, unless NULL, counts.
-static inline bool walk_tree(bvh_walk *w, bool any, bvh_visits *v) {
+KERNEL bool walk_tree(bvh_walk *w, bool any, bvh_visits *v) {
   bvh_later stack[BVH_MAX_DEPTH];
   int top = 0;
   bool found = false;
@@ -84,8 +87,8 @@ static inline bool walk_tree(bvh_walk *w, bool any, bvh_visits *v) {
       uint32_t c = n->first;
       const bvh_node *l = nodes + c, *r = l + 1;
       slab_span span = {tmin, w->best.t};
-      slab_span a = slab_cut(&w->slab, &l->lo, &l->hi, span);
-      slab_span b = slab_cut(&w->slab, &r->lo, &r->hi, span);
+      slab_span a = slab_cut(&w->slab, l, span);
+      slab_span b = slab_cut(&w->slab, r, span);
       bool in_a = a.near <= a.far, in_b = b.near <= b.far;
       if (in_a && in_b) {
         bool swap = b.near < a.near;
