@@ -33,7 +33,8 @@ CHAPTER_1 := vec error arena report file image png pfm hdr jpeg tga picture metr
 CHAPTER_2 := $(CHAPTER_1) cpu_quota pool digits number text path_find polygon \
              mesh mtl name_table obj_source obj_chunk obj_line \
              obj_parse obj_merge obj_events obj normals
-CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material scene
+CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material \
+             statement scene_file mesh_join material_list scene scene_text
 CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah bvh_part bvh_build rays rays_make
 CHAPTER_8 := $(CHAPTER_4) surface surface_ray surface_normal
 CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_naive film render

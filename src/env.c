@@ -73,6 +73,7 @@ vec3 env_radiance(const env *e, vec3 d) {
     if (e->rotate != 0) d = turned_about_y(d, e->rotate);
     return vec3_scale(sky_radiance(d), e->scale);
   case ENV_MAP: {
+    if (e->map.pixels == NULL) return vec3_all(0);
     vec2 uv = env_uv(d);
     return vec3_scale(map_lookup(&e->map, uv.x + e->rotate, uv.y), e->scale);
   }

@@ -16,12 +16,13 @@ typedef struct env {
   env_kind kind;
   vec3 constant;
   image map;
-  float rotate;  // turns about +Y, added to u
+  float rotate;  // turns about +Y (1 is a full turn), added to u
   float scale;   // multiplies everything
 } env;
 
 // Radiance arriving along -d, that is seen when looking along the unit
-// direction d.  Bilinear in the map, u wraps, v is clamped.
+// direction d.  Bilinear in the map, u wraps, v is clamped.  Black for a map
+// that was not loaded and for a direction that is not finite.
 vec3 env_radiance(const env *e, vec3 d);
 
 // The (u, v) in [0, 1) x [0, 1] of a unit direction before rotation, and back.

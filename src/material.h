@@ -27,6 +27,7 @@ typedef struct material {
   bool passes;  // some of it lets light straight through: d < 1 or map_d
   texture_map map_kd, map_ks, map_ke, map_ns, map_d, map_pr, map_pm;
   texture_map map_bump, map_norm;
+  const mtl_material *source;  // what it was made from, NULL: grey default
 } material;
 
 // The names that decide.

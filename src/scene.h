@@ -8,30 +8,22 @@
 #include "material.h"
 #include "normals.h"
 #include "obj.h"
-
-typedef enum light_kind { LIGHT_POINT, LIGHT_DIR } light_kind;
-
-// A point light: position, intensity in W/sr.  A directional light: unit
-// direction of travel, irradiance on a facing plane in W/m^2.
-typedef struct light {
-  light_kind kind;
-  vec3 at;     // position, or direction of travel
-  vec3 power;  // intensity, or irradiance
-} light;
+#include "scene_file.h"
 
 // What a command line may say over a scene file.  Zero is "as the file says".
 typedef struct scene_options {
   normals_mode normals;
-  float crease_deg;  // 180 by default
+  float crease_deg;  // 0: 180
   bool no_name_rules;
   bool up_z;                                // the OBJ's up is +Z
   bool skip_textures;                       // for info: check, do not decode
-  const char *env;                          // FILE, R,G,B or none
+  const char *env;                          // FILE, R,G,B, sky or none
   const float *env_rotate_deg, *env_scale;  // NULL: not given
 } scene_options;
 
 typedef struct scene {
   const char *path;
+  scene_file file;      // what the scene file says, paths as found
   mesh mesh;            // all meshes of the scene, in world space
   material *materials;  // surfaces in use
   size_t material_count;
@@ -43,14 +35,17 @@ typedef struct scene {
   env env;
   int film_width, film_height;  // 0: not given
   float exposure;               // stops
-  vec3 lo, hi;                  // bounds of the triangles
+  vec3 lo, hi;  // bounds of the triangles; lo > hi when there are none
   texture_store textures;
   double seconds_load, seconds_textures;
   obj_times times;
 } scene;
 
-// Read an .obj (with the .scene of the same stem beside it, when there is one),
-// a .scene, or "-" (an OBJ on standard input).
+// Order of force: options, scene file, MTL, default.  Read an .obj (with the
+// .scene of the same stem beside it, when there is one), a .scene (whose mesh
+// is the .obj of the same stem unless it names one), or "-" (an OBJ on standard
+// input).  Missing libraries and textures are warnings; a missing mesh or
+// environment is an error.
 bool scene_load(scene *out, const char *path, const scene_options *options,
                 arena *mem, pool *threads, report *r, error *err);
 
@@ -60,7 +55,12 @@ const camera *scene_camera(const scene *s, const char *name);
 // The interpolated texture coordinate of a hit; (0, 0) where there is none.
 vec2 scene_uv(const scene *s, const hit *h);
 
-// Write a complete scene file for what is in force to a string in mem.
+// Whether the triangles of a material (an index into materials) enclose a
+// solid, as glass must to have an inside.
+bool scene_material_closed(const scene *s, uint32_t which);
+
+// A complete scene file for what is in force, as a string in mem: paths are
+// absolute, and the decision of each material is in a comment.
 char *scene_to_text(const scene *s, arena *mem);
 
 #endif
