@@ -63,12 +63,17 @@ void polygon_newell(const vec3 *p, size_t n, double out[3]) {
   out[2] = z;
 }
 
-// The corner seen along the given axis, from the side where the polygon runs
-// counter-clockwise.
-static flat flatten(vec3 p, int axis, bool flip) {
-  double x = (double)(axis == 0 ? p.y : axis == 1 ? p.z : p.x);
-  double y = (double)(axis == 0 ? p.z : axis == 1 ? p.x : p.y);
-  return flip ? (flat){y, x} : (flat){x, y};
+// The corner moved along the normal into the coordinate plane that faces it
+// most, seen from the side where the polygon runs counter-clockwise.  Triangles
+// there and on the Newell plane differ by an affine map, which changes neither
+// turns nor ratios of areas; and where the normal is an axis, nothing is
+// rounded.
+static flat flatten(vec3 p, const double normal[3], int axis) {
+  double q[3] = {(double)p.x, (double)p.y, (double)p.z};
+  int i = (axis + 1) % 3, j = (axis + 2) % 3;
+  double up = q[axis] / normal[axis];
+  double x = q[i] - normal[i] * up, y = q[j] - normal[j] * up;
+  return normal[axis] < 0 ? (flat){y, x} : (flat){x, y};
 }
 
 // Twice the signed area of a b c: positive when they turn left.
@@ -330,10 +335,12 @@ bool polygon_triangulate(const vec3 *p, size_t n, uint32_t *out,
     if (fabs(normal[i]) > fabs(normal[axis])) axis = i;
   flat few[8];
   flat *q = n <= 8 ? few : ARENA_NEW(scratch, flat, n);
-  for (size_t i = 0; i < n; i++)
-    q[i] = flatten(p[i], axis, normal[axis] < 0);
-  double area = fabs(normal[axis]);
+  double square = normal[0] * normal[0] + normal[1] * normal[1] +
+                  normal[2] * normal[2];
+  double area = square / fabs(normal[axis]);  // of the outline as flattened
   bool solid = area > 0 && isfinite(area);
+  for (size_t i = 0; i < n; i++)
+    q[i] = flatten(p[i], normal, axis);
   if (!solid || is_convex(q, n)) {
     fan(out, n);
     return solid;
