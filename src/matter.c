@@ -11,26 +11,38 @@ static float textured_number(float number, const texture_map *map, vec2 uv) {
   return map->image == NULL ? number : texture_number(map, uv);
 }
 
+// What a surface without any material is: grey.
+static const material GREY = {
+    .kind = MATERIAL_BLINN_PHONG, .kd = {0.8f, 0.8f, 0.8f}, .d = 1};
+
+static const material *material_at(const surface *s) {
+  return s->material == NULL ? &GREY : s->material;
+}
+
 static vec3 base_color(const surface *s) {
-  const material *m = s->material;
+  const material *m = material_at(s);
   return vec3_mul(textured(m->kd, &m->map_kd, s->uv), s->color);
 }
 
+bool matter_passes(const surface *s) {
+  return material_at(s)->passes;
+}
+
 float matter_opacity(const surface *s) {
-  const material *m = s->material;
+  const material *m = material_at(s);
   float d = m->d;
   if (m->map_d.image != NULL) d *= texture_alpha(&m->map_d, s->uv);
   return fminf(fmaxf(d, 0), 1);
 }
 
 vec3 matter_emission(const surface *s) {
-  const material *m = s->material;
+  const material *m = material_at(s);
   if (!(vec3_peak(m->ke) > 0)) return vec3_all(0);
   return textured(m->ke, &m->map_ke, s->uv);
 }
 
 vec3 matter_albedo(const surface *s) {
-  const material *m = s->material;
+  const material *m = material_at(s);
   if (m->kind == MATERIAL_GLASS) return vec3_all(1);
   if (m->kind == MATERIAL_MIRROR) return textured(m->ks, &m->map_ks, s->uv);
   return base_color(s);
@@ -81,7 +93,7 @@ static matter smooth_coat(vec3 f0, vec3 kd, float cos_o, float u) {
 // diffuse (1 - m)(1 - F0) c, so that no more than 1 leaves; the share tf is
 // smooth glass, stained by the square root of c at each of two crossings.
 static matter metal_rough(const surface *s, float cos_o, float u) {
-  const material *m = s->material;
+  const material *m = material_at(s);
   vec3 c = base_color(s), weight = vec3_all(1);
   float share = fminf(vec3_peak(m->tf), 1);
   if (share > 0 && take_first(share, m->tf, &u, &weight)) {
@@ -107,7 +119,7 @@ static matter metal_rough(const surface *s, float cos_o, float u) {
 // Files say Kd 0.8 and Ks 0.5 of one surface, which would return 130 % of the
 // light: both are scaled down to a sum of at most 1.
 static matter blinn_phong(const surface *s) {
-  const material *m = s->material;
+  const material *m = material_at(s);
   vec3 kd = base_color(s), ks = textured(m->ks, &m->map_ks, s->uv);
   float down = 1 / fmaxf(1, vec3_peak(vec3_add(kd, ks)));
   bsdf b = {.kind = BSDF_LAMBERT, .kd = vec3_scale(kd, down)};
@@ -120,7 +132,7 @@ static matter blinn_phong(const surface *s) {
 }
 
 matter matter_choose(const surface *s, float cos_o, float u) {
-  const material *m = s->material;
+  const material *m = material_at(s);
   switch (m->kind) {
   case MATERIAL_METAL_ROUGH: return metal_rough(s, cos_o, u);
   case MATERIAL_GLASS: return whole(glass_of(m->ni, vec3_all(1)));

@@ -19,7 +19,8 @@ typedef struct matter {
 // is that of a viewer outside.
 matter matter_choose(const surface *s, float cos_o, float u);
 
-// What does not go straight through, in [0, 1].
+// Whether some of it may go straight through; what does not, in [0, 1].
+bool matter_passes(const surface *s);
 float matter_opacity(const surface *s);
 
 // Radiance emitted on the front side.

@@ -4,13 +4,18 @@
 
 #include "matter.h"
 
-// Segments before roulette begins.
-enum { ROULETTE_FROM = 4 };
+// A path whose throughput falls below this plays roulette for it.
+#define ROULETTE_BELOW 0.25f
 
 // From this segment on even a path that lost nothing is ended with probability
 // 1 - LOSSLESS_SURVIVAL, so that mirrors facing each other end.
-enum { LOSSLESS_FROM = 256 };
+enum { LOSSLESS_FROM = 4096 };
 #define LOSSLESS_SURVIVAL 0.999f
+
+// Reversible optics let no light into glass that cannot get out again, but
+// interpolated normals do: after this many reflections inside, one after the
+// other, it goes straight out.
+enum { TRAPPED_AFTER = 256 };
 
 // The most rays of a path.  Unreachable by the roulette above (e^-99), except
 // through sheets that let light straight through, which do not play.
@@ -26,6 +31,7 @@ typedef struct walk {
   path_stats *stats;
   ray ray;
   vec3 sum, throughput;
+  int inside;  // reflections inside glass since the last other event
 } walk;
 
 // A hit seen from where the ray came from: unit wo, the two normals turned to
@@ -117,8 +123,9 @@ static float light_passes(const walk *k, const surface *from,
   hit h;
   for (int i = 0; i < SHADOW_MAX_SHEETS && closest(k, &r, &h); i++) {
     surface s = surface_at(w->scene, &h, r.d);
-    if (s.material->passes) share *= 1 - matter_opacity(&s);
-    if (!s.material->passes || !(share > 0)) return 0;
+    if (!matter_passes(&s)) return 0;
+    share *= 1 - matter_opacity(&s);
+    if (!(share > 0)) return 0;
     r = shadow_ray(&s, l, false);
   }
   return share;
@@ -147,18 +154,21 @@ static bool scatter(walk *k, const stop *s, const bsdf *b) {
   if (!bsdf_sample_wi(b, to_local(s, s->wo), u, u1, u2, &d)) return false;
   vec3 wi = to_world(s, d.wi);
   k->throughput = vec3_mul(k->throughput, d.weight);
-  if (d.delta)
+  bool held = b->kind == BSDF_GLASS && !s->at.front && !d.transmitted;
+  k->inside = held ? k->inside + 1 : 0;
+  if (k->inside > TRAPPED_AFTER && s->at.smooth)
+    k->ray = surface_ray(&s->at, k->ray.d);
+  else if (d.delta)
     k->ray = surface_ray(&s->at, surface_keep_side(&s->at, wi, d.transmitted));
   else
     k->ray = surface_smooth_ray(&s->at, wi);
   return vec3_peak(k->throughput) > 0;
 }
 
-// Russian roulette: end the path with the probability that its throughput has
-// lost, and let the survivors stand for the ended ones.
+// Russian roulette: a path of little throughput ends with a probability, and
+// the survivors stand for the ended ones.
 static bool survives(walk *k, int segment) {
-  if (segment < ROULETTE_FROM) return true;
-  float q = vec3_peak(k->throughput);
+  float q = vec3_peak(k->throughput) / ROULETTE_BELOW;
   q = fminf(q, segment < LOSSLESS_FROM ? 1 : LOSSLESS_SURVIVAL);
   if (q >= 1) return true;
   if (rng_next(k->random) >= q) return false;
@@ -179,13 +189,12 @@ static bool bounce(walk *k, stop *s) {
 
 // Whether the ray goes straight through the surface, by chance 1 - opacity.
 static bool goes_through(walk *k, const stop *s) {
-  return s->at.material->passes &&
-         rng_next(k->random) >= matter_opacity(&s->at);
+  return matter_passes(&s->at) && rng_next(k->random) >= matter_opacity(&s->at);
 }
 
 vec3 path_naive_radiance(const path_world *w, ray r, rng *random,
                          path_stats *stats) {
-  walk k = {w, random, stats, r, vec3_all(0), vec3_all(1)};
+  walk k = {w, random, stats, r, vec3_all(0), vec3_all(1), 0};
   int segment = 1;
   for (int rays = 0; rays < PATH_MAX_RAYS; rays++) {
     hit h;
