@@ -1,0 +1,56 @@
+# tap.sh — read by the shell tests: a folder of their own, and TAP.
+
+case ${FACET:=build/facet} in
+/*) facet=$FACET ;;
+*) facet=$(pwd)/$FACET ;;
+esac
+[ -x "$facet" ] || { echo "Bail out! there is no $facet"; exit 1; }
+root=$(pwd)
+assets=${FACET_ASSETS:-../shared/assets}
+T=$(mktemp -d)
+trap 'chmod -R u+w "$T"; rm -rf "$T"' EXIT
+n=0
+
+pass() { n=$((n + 1)); echo "ok $n - $1"; }
+skip() { n=$((n + 1)); echo "ok $n - $1 # SKIP $2"; }
+# What went wrong: the name, then what the program said.
+fail() {
+  n=$((n + 1))
+  echo "not ok $n - $1"
+  head -5 "$T/said" "$T/err" "$T/out" 2>/dev/null | sed 's/^/# /'
+}
+# ok NAME COMMAND...: the command succeeds; $T/out and $T/err stay as they are.
+ok() {
+  name=$1
+  shift
+  if "$@" >"$T/said" 2>&1; then pass "$name"; else fail "$name"; fi
+}
+# exits CODE NAME COMMAND...: the command ends with that exit status; its
+# output is in $T/out and $T/err.
+exits() {
+  want=$1 name=$2
+  shift 2
+  rm -f "$T/said"
+  "$@" >"$T/out" 2>"$T/err"
+  got=$?
+  if [ "$got" = "$want" ]; then pass "$name"
+  else fail "$name (exit $got, not $want)"; fi
+}
+# says TEXT NAME: the last command said so on stderr.
+says() {
+  if grep -qF -- "$1" "$T/err"; then pass "$2"; else fail "$2"; fi
+}
+finish() { echo "1..$n"; }
+
+# A quad and a triangle, at the given path.
+write_obj() {
+  cat >"$1" <<'END'
+v -1 0 -1
+v 1 0 -1
+v 1 0 1
+v -1 0 1
+v 0 1 0
+f 4 3 2 1
+f 1 3 5
+END
+}
