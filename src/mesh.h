@@ -36,6 +36,7 @@ typedef struct mesh {
   const char **object_names, **group_names, **material_names;
   size_t object_count, group_count, material_count;  // distinct names
   const char **libraries;                            // mtllib lines as written
+  uint64_t *library_lines;                           // where
   size_t library_count;
   // Of the text itself:
   size_t face_count;  // valid faces as written

@@ -5,6 +5,9 @@
 
 #include "arena.h"
 #include "error.h"
+#include "mesh.h"
+#include "mtl_map.h"
+#include "name_table.h"
 #include "report.h"
 #include "text.h"
 #include "vec.h"
@@ -41,15 +44,6 @@ typedef enum mtl_key {
 
 enum { MTL_FIRST_MAP = MTL_MAP_KA };
 
-// A texture statement: its file as written and its options.
-typedef struct mtl_map {
-  const char *path;    // as written; NULL when the statement is absent
-  vec3 scale, offset;  // -s, -o: uv' = uv * scale + offset
-  float bump;          // -bm
-  bool clamp;          // -clamp on
-  char channel;        // -imfchan r g b m l z, 0 when not given
-} mtl_map;
-
 // One material.  Values that the file does not give are the defaults below
 // and line[key] is 0 there.
 typedef struct mtl_material {
@@ -65,10 +59,12 @@ typedef struct mtl_material {
 } mtl_material;
 
 // Materials by order of appearance; a name that comes again replaces the
-// first, with a warning.
+// first, with a warning.  Start with {0}; it lives in the arena that it is
+// read into.
 typedef struct mtl_library {
   mtl_material *materials;
   size_t count, room;
+  name_table names;  // name number = material number
 } mtl_library;
 
 // A material of the given name with every default.
@@ -78,6 +74,16 @@ mtl_material mtl_default(const char *name);
 // a malformed number is an error.
 bool mtl_read(mtl_library *lib, const char *path, arena *mem, report *r,
               error *err);
+
+// Read every library that m names, looked for beside the OBJ at obj_path (its
+// path, for messages too): the whole rest of a mtllib line as one name first,
+// then each of its words.  One that is not there is a warning.
+bool mtl_read_all(mtl_library *lib, const mesh *m, const char *obj_path,
+                  arena *mem, report *r, error *err);
+
+// A material of that name in lib, appended when it is new; the pointer is good
+// until the next one is added.
+mtl_material *mtl_add(mtl_library *lib, span name, arena *mem);
 
 // Apply one statement (keyword taken off) to m; used by mtl_read and by scene
 // files.  place is "file:line".  *known is false for a keyword that is not

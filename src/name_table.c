@@ -20,14 +20,13 @@ static size_t name_slot(const name_table *t, span name) {
   return i;
 }
 
-// Twice the slots, at least 64.
-static void name_table_grow(name_table *t) {
-  size_t room = 0;
-  size_t n = t->slot_count == 0 ? 64 : 2 * t->slot_count;
-  array_free(t->slots);
-  t->slots = array_grow(NULL, &room, n, sizeof *t->slots);
-  memset(t->slots, 0, n * sizeof *t->slots);
-  t->slot_count = n;
+// Twice the slots, at least 64, and names for half of them.
+static void name_table_grow(name_table *t, arena *mem) {
+  t->slot_count = t->slot_count == 0 ? 64 : 2 * t->slot_count;
+  t->slots = ARENA_NEW(mem, uint32_t, t->slot_count);
+  const char **names = ARENA_NEW(mem, const char *, t->slot_count / 2);
+  if (t->count > 0) memcpy(names, t->names, t->count * sizeof *names);
+  t->names = names;
   for (size_t i = 0; i < t->count; i++) {
     span name = {t->names[i], strlen(t->names[i])};
     t->slots[name_slot(t, name)] = (uint32_t)i + 1;
@@ -35,10 +34,9 @@ static void name_table_grow(name_table *t) {
 }
 
 int name_table_add(name_table *t, span name, arena *mem) {
-  if (2 * t->count >= t->slot_count) name_table_grow(t);
+  if (2 * t->count >= t->slot_count) name_table_grow(t, mem);
   size_t slot = name_slot(t, name);
   if (t->slots[slot] != 0) return (int)t->slots[slot] - 1;
-  t->names = array_grow(t->names, &t->room, t->count + 1, sizeof *t->names);
   t->names[t->count++] = span_copy(mem, name);
   t->slots[slot] = (uint32_t)t->count;
   return (int)t->count - 1;
@@ -47,10 +45,4 @@ int name_table_add(name_table *t, span name, arena *mem) {
 int name_table_find(const name_table *t, span name) {
   if (t->slot_count == 0) return -1;
   return (int)t->slots[name_slot(t, name)] - 1;
-}
-
-void name_table_free(name_table *t) {
-  array_free(t->names);
-  array_free(t->slots);
-  *t = (name_table){0};
 }

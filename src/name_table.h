@@ -5,10 +5,10 @@
 
 #include "text.h"
 
-// Start with {0}.  Freed by name_table_free; the names live in an arena.
+// Start with {0}.  Everything lives in the arena that name_table_add gets.
 typedef struct name_table {
   const char **names;
-  size_t count, room;
+  size_t count;
   uint32_t *slots;    // name number + 1 by hash, 0 where free
   size_t slot_count;  // a power of two
 } name_table;
@@ -18,7 +18,5 @@ int name_table_add(name_table *t, span name, arena *mem);
 
 // The number of name, -1 when it is not there.
 int name_table_find(const name_table *t, span name);
-
-void name_table_free(name_table *t);
 
 #endif

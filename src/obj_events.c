@@ -10,7 +10,9 @@
 typedef struct event_state {
   name_table objects, groups, materials;
   const char **libraries;
-  size_t library_count, library_room;
+  uint64_t *library_lines;
+  size_t library_count, library_room, line_room;
+  size_t object_statements, group_statements;
   mesh_run open;
   mesh_run *runs;
   size_t run_count, run_room;
@@ -36,24 +38,28 @@ static void close_run(event_state *s, size_t triangle) {
   s->open.first = (uint32_t)triangle;
 }
 
-static void apply_event(event_state *s, mesh *m, const obj_event *e, span name,
-                        arena *mem) {
+// line is the number of the line before the chunk.
+static void apply_event(event_state *s, const obj_event *e, span name,
+                        uint64_t line, arena *mem) {
   switch (e->kind) {
   case OBJ_EVENT_OBJECT:
     s->open.object = name_table_add(&s->objects, name, mem);
-    m->object_statements++;
+    s->object_statements++;
     break;
   case OBJ_EVENT_GROUP:
     s->open.group = name_table_add(&s->groups, name, mem);
-    m->group_statements++;
+    s->group_statements++;
     break;
   case OBJ_EVENT_MATERIAL:
     s->open.material = name_table_add(&s->materials, name, mem);
     break;
-  case OBJ_EVENT_SMOOTH: s->open.smooth = e->smooth; break;
+  case OBJ_EVENT_SMOOTH: s->open.smooth = e->value; break;
   case OBJ_EVENT_LIBRARY:
     s->libraries = array_grow(s->libraries, &s->library_room,
                               s->library_count + 1, sizeof *s->libraries);
+    s->library_lines = array_grow(s->library_lines, &s->line_room,
+                                  s->library_count + 1, sizeof line);
+    s->library_lines[s->library_count] = line + (uint64_t)e->value;
     s->libraries[s->library_count++] = span_copy(mem, name);
     break;
   }
@@ -66,13 +72,6 @@ static void *keep_items(const void *items, size_t n, size_t size, arena *mem) {
   return kept;
 }
 
-static const char **keep_names(name_table *t, size_t *count, arena *mem) {
-  *count = t->count;
-  const char **kept = keep_items(t->names, t->count, sizeof *t->names, mem);
-  name_table_free(t);
-  return kept;
-}
-
 void obj_merge_events(mesh *m, const obj_chunk *chunks, const obj_place *places,
                       size_t n, arena *mem) {
   event_state s = {
@@ -82,7 +81,8 @@ void obj_merge_events(mesh *m, const obj_chunk *chunks, const obj_place *places,
     for (size_t j = 0; j < c->event_count; j++) {
       const obj_event *e = &c->events[j];
       close_run(&s, places[i].triangle + e->triangle);
-      apply_event(&s, m, e, (span){c->names + e->name, e->length}, mem);
+      span name = {c->names + e->name, e->length};
+      apply_event(&s, e, name, places[i].line, mem);
     }
   }
   close_run(&s, places[n].triangle);
@@ -90,10 +90,18 @@ void obj_merge_events(mesh *m, const obj_chunk *chunks, const obj_place *places,
   m->run_count = s.run_count;
   m->libraries =
       keep_items(s.libraries, s.library_count, sizeof *s.libraries, mem);
+  m->library_lines = keep_items(s.library_lines, s.library_count,
+                                sizeof *s.library_lines, mem);
   m->library_count = s.library_count;
-  m->object_names = keep_names(&s.objects, &m->object_count, mem);
-  m->group_names = keep_names(&s.groups, &m->group_count, mem);
-  m->material_names = keep_names(&s.materials, &m->material_count, mem);
+  m->object_statements = s.object_statements;
+  m->group_statements = s.group_statements;
+  m->object_names = s.objects.names;
+  m->object_count = s.objects.count;
+  m->group_names = s.groups.names;
+  m->group_count = s.groups.count;
+  m->material_names = s.materials.names;
+  m->material_count = s.materials.count;
   array_free(s.runs);
   array_free(s.libraries);
+  array_free(s.library_lines);
 }

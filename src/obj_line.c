@@ -177,7 +177,7 @@ static void line_face(obj_chunk *c, span line, uint64_t number) {
 
 // Keep an event, and its name with blanks for the NUL bytes in it.
 static void add_event(obj_chunk *c, obj_event_kind kind, span name,
-                      int64_t smooth) {
+                      int64_t value) {
   size_t n = c->event_count++, at = c->name_bytes;
   c->events = array_grow(c->events, &c->event_room, n + 1, sizeof *c->events);
   c->names = array_grow(c->names, &c->name_room, at + name.length + 1, 1);
@@ -185,7 +185,7 @@ static void add_event(obj_chunk *c, obj_event_kind kind, span name,
     c->names[at + i] = name.at[i] == '\0' ? ' ' : name.at[i];
   c->name_bytes += name.length;
   c->events[n] =
-      (obj_event){kind, (uint32_t)c->triangle_count, at, name.length, smooth};
+      (obj_event){kind, (uint32_t)c->triangle_count, at, name.length, value};
 }
 
 // s N, s off, s on.
@@ -253,7 +253,7 @@ void obj_line_parse(obj_chunk *c, span line, uint64_t number) {
   } else if (span_is(keyword, "s")) {
     line_smooth(c, data, number);
   } else if (span_is(keyword, "mtllib")) {
-    add_event(c, OBJ_EVENT_LIBRARY, name, 0);
+    add_event(c, OBJ_EVENT_LIBRARY, name, (int64_t)number);
   } else {
     line_other(c, keyword, number);
   }
