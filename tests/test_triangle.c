@@ -327,6 +327,56 @@ static void zeros_are_zeros(void **state) {
     hit h;
     assert_true(triangle_hit(&r, &s, a, b, c, &h));
     assert_true(h.t == 3 && h.b1 == 0.25f && h.b2 == 0.5f);
+    assert_true(s.sx == 0 && s.sy == 0);
+  }
+}
+
+// Along z nothing is sheared, so that the exact answer is known: a ray meets
+// the triangle if the origin of the xy plane is inside or on its outline, by
+// signs of differences of exact products.  Edges pass as near as floats can.
+static void edges_are_decided_exactly(void **state) {
+  (void)state;
+  uint64_t random = 77;
+  uint32_t hits = 0, zero_in_float = 0;
+  for (uint32_t i = 0; i < turns(1000000); i++) {
+    vec3 p[3];
+    for (int k = 0; k < 3; k++)
+      p[k] = shape_point(&random);
+    p[1] = vec3_scale(p[0], -0.1f - shape_random(&random));
+    for (int k = 0; k < 3; k++)
+      p[k].z = 1;
+    double e[3];
+    for (int k = 0; k < 3; k++) {
+      vec3 a = p[(k + 1) % 3], b = p[(k + 2) % 3];
+      e[k] = (double)b.x * (double)a.y - (double)b.y * (double)a.x;
+      zero_in_float += e[k] != 0 && b.x * a.y - b.y * a.x == 0;
+    }
+    bool up = e[0] >= 0 && e[1] >= 0 && e[2] >= 0;
+    bool down = e[0] <= 0 && e[1] <= 0 && e[2] <= 0;
+    ray r = ray_from(vec3_all(0), (vec3){0, 0, 1});
+    ray_shear s = ray_shear_of(r.d);
+    hit h;
+    assert_int_equal(triangle_hit(&r, &s, p[0], p[1], p[2], &h), up || down);
+    hits += up || down;
+  }
+  assert_true(hits > turns(1000000) / 10 && zero_in_float > hits / 100);
+}
+
+// Triangles so small that products of their coordinates are denormal are hit
+// at the right place.
+static void small_triangles_keep_their_digits(void **state) {
+  (void)state;
+  const float size[] = {1e-15f, 1e-19f, 1e-21f, 1e-23f};
+  for (int i = 0; i < 4; i++) {
+    const vec3 a = {-size[i], -size[i], -1}, b = {3 * size[i], 0, -1};
+    const vec3 c = {0, 2 * size[i], -1};
+    ray r = ray_from(vec3_all(0), (vec3){0, 0, -1});
+    ray_shear s = ray_shear_of(r.d);
+    hit h;
+    assert_true(triangle_hit(&r, &s, a, b, c, &h));
+    assert_true(fabsf(h.t - 1) < 1e-6f);
+    assert_true(fabsf(h.b1 - 2.0f / 11) < 1e-6f);
+    assert_true(fabsf(h.b2 - 3.0f / 11) < 1e-6f);
   }
 }
 
@@ -380,6 +430,8 @@ int main(void) {
       cmocka_unit_test(near_starts_know_their_side),
       cmocka_unit_test(strange_numbers_are_harmless),
       cmocka_unit_test(zeros_are_zeros),
+      cmocka_unit_test(edges_are_decided_exactly),
+      cmocka_unit_test(small_triangles_keep_their_digits),
       cmocka_unit_test(degenerate_triangles_are_not_hit),
       cmocka_unit_test(corner_order_does_not_matter),
   };
