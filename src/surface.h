@@ -11,7 +11,7 @@
 typedef struct surface {
   vec3 p;         // from the barycentric weights, not from o + t d
   vec3 p_error;   // |true point - p| <= p_error, componentwise
-  vec3 p_smooth;  // p lifted onto the smooth surface that ns suggests, towards
+  vec3 p_smooth;  // p lifted clear of the smooth surface that ns means, on
                   // the side that the ray came from
   vec3 inward;    // a step of a few p_errors towards the triangle's middle
   vec3 ng, ns;

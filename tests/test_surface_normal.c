@@ -327,6 +327,120 @@ static void winding_decides_the_side(void **state) {
   arena_free(&mem);
 }
 
+// A parallelogram over the whole texture square: corner, u side, v side.
+typedef struct sheet {
+  vec3 p[4], n[1];
+  vec2 uv[4];
+  uint32_t index[6], material_of[2];
+  material material;
+  scene scene;
+} sheet;
+
+static void sheet_set(sheet *s, vec3 corner, vec3 u, vec3 v) {
+  static const uint32_t index[6] = {0, 1, 3, 0, 3, 2};
+  *s = (sheet){.uv = {{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
+  for (int k = 0; k < 4; k++) {
+    s->p[k] = vec3_mad(corner, (float)(k % 2), u);
+    s->p[k] = vec3_mad(s->p[k], (float)(k / 2), v);
+  }
+  for (int k = 0; k < 6; k++)
+    s->index[k] = index[k];
+  solid all = {.p = s->p, .index = s->index, .vertices = 4, .triangles = 2};
+  s->scene = solid_scene(&all, false);
+  s->scene.mesh.texcoords = s->uv;
+  s->scene.mesh.texcoord_count = 4;
+  s->scene.mesh.texcoord_index = s->index;
+  s->scene.materials = &s->material;
+  s->scene.material_of = s->material_of;
+  s->scene.material_count = 1;
+}
+
+// A hit well inside the texture, and the mapped normal there.
+static vec3 sheet_normal(sheet *s, rng *r) {
+  hit h = hit_somewhere(r, 2);
+  float b0 = 1 - h.b1 - h.b2;
+  h.b1 = 0.8f * h.b1 + 0.2f / 3;
+  h.b2 = 0.8f * h.b2 + 0.2f / 3;
+  assert_true(b0 > -1e-6f);
+  surface at = surface_at(&s->scene, &h, vec3_neg(sphere_point(r)));
+  return surface_mapped_normal(&s->scene, &at, &h);
+}
+
+// A height that rises by `rise` along u and `climb` along v over the picture
+// gives the normal of the tilted plane, on a parallelogram of any shape and
+// with u and v exchanged; the height is in world units, times -bm.
+static void bumps_tilt_the_normal(void **state) {
+  (void)state;
+  enum { SIZE = 16 };
+  float height[SIZE * SIZE];
+  const float rise = 0.3f, climb = -0.2f, bm = 2;
+  for (int y = 0; y < SIZE; y++)
+    for (int x = 0; x < SIZE; x++)
+      height[y * SIZE + x] = 0.5f + rise * ((float)x + 0.5f) / SIZE +
+                             climb * (SIZE - 0.5f - (float)y) / SIZE;
+  texture map = {.width = SIZE,
+                 .height = SIZE,
+                 .channels = 1,
+                 .floats = height,
+                 .is_linear = true};
+  rng r = rng_of(8, 18, 0);
+  for (long i = 0; i < fewer(20000); i++) {
+    vec3 u = vec3_scale(sphere_point(&r), 3), v = sphere_point(&r);
+    vec3 ng = vec3_cross(u, v);
+    if (vec3_length(ng) < 1) continue;
+    sheet s;
+    sheet_set(&s, sphere_point(&r), u, v);
+    s.material.map_bump = (texture_map){
+        .image = &map, .options = {.scale = {1, 1, 1}, .bump = bm}};
+    vec3 up = vec3_unit(ng);
+    vec3 tilted =
+        vec3_cross(vec3_mad(u, bm * rise, up), vec3_mad(v, bm * climb, up));
+    vec3 got = sheet_normal(&s, &r);
+    assert_true(vec3_length(vec3_sub(got, vec3_unit(tilted))) < 2e-4f);
+    sheet_set(&s, sphere_point(&r), v, u);  // turned over: ng is -up
+    s.material.map_bump = (texture_map){
+        .image = &map, .options = {.scale = {1, 1, 1}, .bump = bm}};
+    up = vec3_neg(up);
+    tilted =
+        vec3_cross(vec3_mad(v, bm * rise, up), vec3_mad(u, bm * climb, up));
+    got = sheet_normal(&s, &r);
+    assert_true(vec3_length(vec3_sub(got, vec3_unit(tilted))) < 2e-4f);
+  }
+}
+
+// A normal map that says (0, 0, 1) changes nothing; red leans along +u, green
+// along +v; a frameless triangle is left alone.
+static void normal_maps_lean_along_uv(void **state) {
+  (void)state;
+  rng r = rng_of(8, 19, 0);
+  for (long i = 0; i < fewer(20000); i++) {
+    vec3 u = sphere_point(&r), v = sphere_point(&r);
+    v = vec3_unit(vec3_mad(v, -vec3_dot(u, v), u));
+    sheet s;
+    sheet_set(&s, sphere_point(&r), u, v);
+    vec3 up = vec3_unit(vec3_cross(u, v)), lean = {0.6f, 0, 0.8f};
+    if (i % 3 == 0) lean = (vec3){0, 0.6f, 0.8f};
+    if (i % 3 == 1) lean = (vec3){0, 0, 1};
+    vec3 stored = vec3_mad(vec3_all(0.5f), 0.5f, lean);
+    float texel[3] = {stored.x, stored.y, stored.z};
+    texture map = {.width = 1,
+                   .height = 1,
+                   .channels = 3,
+                   .floats = texel,
+                   .is_linear = true};
+    s.material.map_norm =
+        (texture_map){.image = &map, .options = {.scale = {1, 1, 1}}};
+    vec3 want = vec3_scale(u, lean.x);
+    want = vec3_mad(vec3_mad(want, lean.y, v), lean.z, up);
+    vec3 got = sheet_normal(&s, &r);
+    assert_true(vec3_length(vec3_sub(got, want)) < 1e-5f);
+    for (int k = 0; k < 4; k++)
+      s.uv[k] = (vec2){0.5f, 0.5f};
+    got = sheet_normal(&s, &r);
+    assert_true(vec3_length(vec3_sub(got, up)) < 1e-5f);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(bent_mirrors_stay_above),
@@ -338,6 +452,8 @@ int main(void) {
       cmocka_unit_test(smooth_bodies_lose_nothing),
       cmocka_unit_test(bad_normals_are_mended),
       cmocka_unit_test(winding_decides_the_side),
+      cmocka_unit_test(bumps_tilt_the_normal),
+      cmocka_unit_test(normal_maps_lean_along_uv),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
