@@ -41,7 +41,9 @@ CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_naive film render
 LIBRARY   := $(CHAPTER_9)
 CHAPTERS  := 1 2 3 4 8 9
 # The command line, the only floor that prints and exits.
-COMMAND   := main
+COMMAND   := json tonemap progress option_table option cmd_shared cmd_signals \
+             cmd_output cmd_render cmd_info_scene cmd_info cmd_compare cmd_bench \
+             cmd_help main
 MODULES   := $(LIBRARY) $(COMMAND)
 
 # Objects of those modules that have a .c; the folder of chapter N.
