@@ -17,10 +17,10 @@ for name, flags in ("closest", 0), ("any", 1):
     open(name + ".rays", "wb").write(b"RAYS" + struct.pack("<IQ", flags, len(rays)) +
                                      b"".join(struct.pack("<8f", *r) for r in rays))
 E
-for name in closest any; do
-  exits 0 "rays from a file: $name" "$facet" bench rays a.obj --rays $name.rays --hits $name.hits --repeat 1
-  "$facet" bench rays a.obj --rays $name.rays --hits brute.hits --repeat 1 --bvh brute >"$T/out"
-  ok "the list finds the same" cmp $name.hits brute.hits
+for question in closest any; do
+  exits 0 "rays from a file: $question" "$facet" bench rays a.obj --rays $question.rays --hits $question.hits --repeat 1
+  "$facet" bench rays a.obj --rays $question.rays --hits brute.hits --repeat 1 --bvh brute >"$T/out"
+  ok "the list finds the same" cmp $question.hits brute.hits
 done
 ok "their hits, and the numbers as JSON" python3 - <<'E'
 import json, math, struct

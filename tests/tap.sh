@@ -21,20 +21,20 @@ fail() {
 }
 # ok NAME COMMAND...: the command succeeds; $T/out and $T/err stay as they are.
 ok() {
-  name=$1
+  title=$1
   shift
-  if "$@" >"$T/said" 2>&1; then pass "$name"; else fail "$name"; fi
+  if "$@" >"$T/said" 2>&1; then pass "$title"; else fail "$title"; fi
 }
 # exits CODE NAME COMMAND...: the command ends with that exit status; its
 # output is in $T/out and $T/err.
 exits() {
-  want=$1 name=$2
+  want=$1 title=$2
   shift 2
   rm -f "$T/said"
   "$@" >"$T/out" 2>"$T/err"
   got=$?
-  if [ "$got" = "$want" ]; then pass "$name"
-  else fail "$name (exit $got, not $want)"; fi
+  if [ "$got" = "$want" ]; then pass "$title"
+  else fail "$title (exit $got, not $want)"; fi
 }
 # says TEXT NAME: the last command said so on stderr.
 says() {
