@@ -11,11 +11,16 @@
 // cannot stand for more pixels than this.
 enum { HUFFMAN_MAX_PIXELS = 8 * 64 };
 
+// A progressive file may repaint all of the picture with every few bytes.  Real
+// ones do so about ten times.
+enum { MAX_SCANS = 200 };
+
 // One file in work.  manager comes first: libjpeg hands its address back.
 typedef struct jpeg_job {
   struct jpeg_error_mgr manager;
   jmp_buf back;
   struct jpeg_decompress_struct jpeg;
+  struct jpeg_progress_mgr progress;
   arena scratch;
   pixmap map;
   uint64_t file_bytes;
@@ -41,6 +46,13 @@ static _Noreturn void jpeg_refuse(jpeg_job *job, const char *why) {
   longjmp(job->back, 1);
 }
 
+// Called now and then while libjpeg works.
+static void jpeg_watch(j_common_ptr jpeg) {
+  jpeg_job *job = (jpeg_job *)jpeg->err;
+  if (job->jpeg.input_scan_number > MAX_SCANS)
+    jpeg_refuse(job, "it has more than 200 scans");
+}
+
 // Refuse what would cost more memory than its bytes can be worth.
 static void jpeg_check_size(jpeg_job *job) {
   uint64_t w = job->jpeg.image_width, h = job->jpeg.image_height;
@@ -55,6 +67,8 @@ static void jpeg_check_size(jpeg_job *job) {
 static void jpeg_decode(jpeg_job *job, FILE *f) {
   struct jpeg_decompress_struct *jpeg = &job->jpeg;
   jpeg_create_decompress(jpeg);
+  job->progress.progress_monitor = jpeg_watch;
+  jpeg->progress = &job->progress;
   jpeg_stdio_src(jpeg, f);
   jpeg_read_header(jpeg, TRUE);
   jpeg_check_size(job);

@@ -7,6 +7,9 @@
 #include "report.h"
 
 #include <stdalign.h>
+#include <stdint.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 // Objects of any size come zeroed, aligned, apart, and stay where they are.
 static void objects_are_zeroed_and_apart(void **state) {
@@ -44,6 +47,21 @@ static void adoption(void **state) {
   assert_string_equal(x, "7 dwarfs");
   assert_string_equal(y, "giants");
   arena_free(&none);
+}
+
+// Without memory the program ends with status 5, before any overflow.
+static void out_of_memory_is_status_5(void **state) {
+  (void)state;
+  pid_t child = fork();
+  if (child == 0) {
+    arena a = {0};
+    if (freopen("/dev/null", "w", stderr) == NULL) _exit(1);
+    arena_alloc(&a, SIZE_MAX / 2, 3);
+    _exit(0);
+  }
+  int status;
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_true(WIFEXITED(status) && WEXITSTATUS(status) == 5);
 }
 
 // A growing array keeps its content and doubles its room.
@@ -101,6 +119,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(objects_are_zeroed_and_apart),
       cmocka_unit_test(adoption),
+      cmocka_unit_test(out_of_memory_is_status_5),
       cmocka_unit_test(arrays_grow),
       cmocka_unit_test(remarks),
       cmocka_unit_test(failing),

@@ -18,6 +18,7 @@ typedef struct jpeg_kind {
   J_COLOR_SPACE space;
   int channels;
   bool progressive, arithmetic;
+  const jpeg_scan_info *scans;  // 253 of them, or NULL
 } jpeg_kind;
 
 // A file of that kind.
@@ -37,6 +38,7 @@ static blob jpeg_made(jpeg_kind kind) {
   jpeg_set_quality(&jpeg, 95, TRUE);
   jpeg.arith_code = kind.arithmetic;
   if (kind.progressive) jpeg_simple_progression(&jpeg);
+  if (kind.scans != NULL) jpeg.scan_info = kind.scans, jpeg.num_scans = 253;
   jpeg_start_compress(&jpeg, TRUE);
   for (int y = 0; y < 24; y++) {
     uint8_t row[40 * 4];
@@ -54,10 +56,10 @@ static blob jpeg_made(jpeg_kind kind) {
 // format, and no damage is taken for a picture.
 static void kinds_come_back(void **state) {
   (void)state;
-  const jpeg_kind kinds[] = {{JCS_GRAYSCALE, 1, false, false},
-                             {JCS_GRAYSCALE, 1, true, false},
-                             {JCS_RGB, 3, false, false},
-                             {JCS_RGB, 3, true, false}};
+  const jpeg_kind kinds[] = {{JCS_GRAYSCALE, 1, false, false, NULL},
+                             {JCS_GRAYSCALE, 1, true, false, NULL},
+                             {JCS_RGB, 3, false, false, NULL},
+                             {JCS_RGB, 3, true, false, NULL}};
   for (int k = 0; k < 4; k++) {
     blob b = jpeg_made(kinds[k]);
     arena mem = {0};
@@ -87,15 +89,15 @@ static void refused_kinds(void **state) {
   arena mem = {0};
   error err = {{0}};
   picture p = {0};
-  blob b = jpeg_made((jpeg_kind){JCS_CMYK, 4, false, false});
+  blob b = jpeg_made((jpeg_kind){JCS_CMYK, 4, false, false, NULL});
   assert_false(blob_load(JPEG, b.bytes, b.size, &p, &mem, &err));
   free(b.bytes);
-  b = jpeg_made((jpeg_kind){JCS_GRAYSCALE, 1, false, true});
+  b = jpeg_made((jpeg_kind){JCS_GRAYSCALE, 1, false, true, NULL});
   assert_false(blob_load(JPEG, b.bytes, b.size, &p, &mem, &err));
   assert_non_null(strstr(err.text, "rithmetic"));
   free(b.bytes);
   for (int progressive = 0; progressive < 2; progressive++) {
-    b = jpeg_made((jpeg_kind){JCS_RGB, 3, progressive, false});
+    b = jpeg_made((jpeg_kind){JCS_RGB, 3, progressive, false, NULL});
     size_t at = 2;  // find the frame header, SOF0 or SOF2
     while (b.bytes[at + 1] != 0xc0 && b.bytes[at + 1] != 0xc2)
       at += 2 + ((size_t)b.bytes[at + 2] << 8 | b.bytes[at + 3]);
@@ -106,10 +108,30 @@ static void refused_kinds(void **state) {
   }
 }
 
+// A file that sends each bit of each frequency in a scan of its own makes the
+// reader walk over all of the picture 253 times, and is refused.
+static void many_scans(void **state) {
+  (void)state;
+  static jpeg_scan_info scans[253] = {{1, {0}, 0, 0, 0, 0}};
+  for (int i = 0; i < 252; i++) {
+    int frequency = 1 + i % 63, bit = 3 - i / 63;
+    scans[1 + i] = (jpeg_scan_info){
+        1, {0}, frequency, frequency, bit == 3 ? 0 : bit + 1, bit};
+  }
+  arena mem = {0};
+  error err = {{0}};
+  picture p = {0};
+  blob b = jpeg_made((jpeg_kind){JCS_GRAYSCALE, 1, .scans = scans});
+  assert_false(blob_load(JPEG, b.bytes, b.size, &p, &mem, &err));
+  assert_non_null(strstr(err.text, "200 scans"));
+  free(b.bytes);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(kinds_come_back),
       cmocka_unit_test(refused_kinds),
+      cmocka_unit_test(many_scans),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
