@@ -19,11 +19,13 @@ typedef struct load_run {
 } load_run;
 
 static const char *const load_names[LOAD_STAGES] = {
-    "read and parse", "merge", "triangulate", "normals", "all"};
+    "read and parse", "merge", "triangulate", "normals", "all",
+};
 
 // The same as JSON keys.
 static const char *const load_keys[LOAD_STAGES] = {
-    "read_parse", "merge", "triangulate", "normals", "total"};
+    "read_parse", "merge", "triangulate", "normals", "total",
+};
 
 // Read the file once.
 static bool load_once(load_run *out, const options *o, pool *threads,

@@ -36,7 +36,8 @@ const command command_table[] = {
      "triangle in OBJ order, -1 for a miss, whose t is tmax; where any hit "
      "will do, t is tmax and the triangle 0 for a hit."},
     {"help", CMD_HELP, "[COMMAND]", 0, 2, "explain facet or a command", NULL},
-    {0}};
+    {0},
+};
 
 const option option_table[OPTION_COUNT] = {
     [OPT_OUTPUT] =
@@ -191,4 +192,5 @@ const char *const later_words[] = {
     "bench ibl", "raster", "wide",      "mis",         "sobol",
     "gl",        "msaa",   "post",      "checkpoint",  "every",
     "resume",    "shard",  "pbr-model", "explain",     ".exr",
-    ".part",     "exr",    "part",      NULL};
+    ".part",     "exr",    "part",      NULL,
+};
