@@ -181,6 +181,7 @@ material material_decide(const material_use *use, arena *mem) {
     m.why = arena_format(mem, "assign at %s, then %s", use->assigned_at, m.why);
   }
   m.why = arena_format(mem, "rule %d: %s", m.rule, m.why);
+  m.source = w == &grey ? NULL : w;
   m.passes =
       m.kind != MATERIAL_GLASS && (m.d < 1 || m.map_d.options.path != NULL);
   return m;

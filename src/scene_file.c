@@ -211,6 +211,21 @@ static const scene_keyword SCENE_KEYWORDS[] = {
 
 enum { SCENE_KEYWORD_COUNT = sizeof SCENE_KEYWORDS / sizeof *SCENE_KEYWORDS };
 
+// MTL statements that facet does not use, so that a block pasted from a library
+// is not refused.
+static const char *const UNUSED_MTL_KEYS[] = {
+    "Ps",   "Pc",     "Pcr",       "aniso",    "anisor", "sharpness",
+    "disp", "map_Ps", "map_Pc",    "map_Pcr",  "decal",  "refl",
+    "Pcf",  "map_Tf", "map_aniso", "map_refl", "map_aat"};
+
+// Whether word is one of them.
+static bool is_unused_mtl_key(span word) {
+  size_t n = sizeof UNUSED_MTL_KEYS / sizeof *UNUSED_MTL_KEYS, i = 0;
+  while (i < n && !span_is(word, UNUSED_MTL_KEYS[i]))
+    i++;
+  return i < n;
+}
+
 // We own this format: a word that is not in it is a slip, to be told with what
 // was probably meant.
 static bool unknown_statement(span word, const statement *st) {
@@ -237,6 +252,11 @@ static bool state_mtl(scene_reader *s, span word, statement *st) {
   if (!mtl_statement(m, word, st->rest, s->line, st->place, &known, st->mem,
                      s->r, st->err))
     return false;
+  if (!known && is_open && is_unused_mtl_key(word)) {
+    report_note(s->r, "%s: %.*s is not used", st->place, (int)word.length,
+                word.at);
+    return true;
+  }
   if (!known) return unknown_statement(word, st);
   return is_open || fail(st->err,
                          "%s: %.*s outside a material, expected newmtl NAME "
