@@ -246,6 +246,7 @@ void normals_generate(mesh *m, normals_mode mode, float crease_deg, arena *mem,
   if (mode == NORMALS_FLAT) m->normal_index = NULL;
   if (m->normal_index != NULL) drop_useless(m);
   bool smooth = mode == NORMALS_SMOOTH;
+  if (m->triangle_count > UINT32_MAX / 3) return;  // corners have 32 bits
   if (!smooth && (mode != NORMALS_AUTO || !has_groups(m))) return;
   arena own = {0};
   normals_job job = {.m = m, .one_group = smooth};

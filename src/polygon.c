@@ -343,8 +343,8 @@ bool polygon_triangulate(const vec3 *p, size_t n, uint32_t *out,
     q[i] = flatten(p[i], normal, axis);
   if (!solid || is_convex(q, n)) {
     fan(out, n);
-    return solid;
+    return n == 4 || solid;
   }
   clip_ears(q, n, out, scratch);
-  return is_cover(q, n, out, area);
+  return n == 4 || is_cover(q, n, out, area);
 }

@@ -16,8 +16,10 @@ void polygon_newell(const vec3 *p, size_t n, double out[3]);
 // corner numbers 0..n-1.  A convex polygon gives the fan from corner 0; a
 // concave one is clipped ear by ear on its Newell plane, which preserves its
 // area when it is planar and does not cross itself.  Always n - 2 triangles,
-// whatever the input.  scratch is freed by the caller.  Returns false when no
-// clean ear was found somewhere: it crosses itself or is degenerate.
+// whatever the input.  scratch is freed by the caller.  Returns false when the
+// triangles do not cover what the outline encloses: it crosses itself or has no
+// area.  A quad is never blamed: a bent one may seem to cross itself, and there
+// are only two ways to cut it.
 bool polygon_triangulate(const vec3 *p, size_t n, uint32_t *out,
                          arena *scratch);
 
