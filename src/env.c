@@ -33,9 +33,12 @@ static vec3 sky_radiance(vec3 d) {
                   SKY_SUN);
 }
 
+// acos(d.y) loses half of its digits near the poles, where d.y hardly changes;
+// the angle of (d.y, |(d.x, d.z)|) is the same and loses none.
 vec2 env_uv(vec3 d) {
   float u = num_turns(d.x, -d.z) + 0.5f;
-  return (vec2){u < 1 ? u : u - 1, num_acos_pi(d.y)};
+  float flat = sqrtf(d.x * d.x + d.z * d.z);
+  return (vec2){u < 1 ? u : u - 1, 2 * num_turns(flat, d.y)};
 }
 
 vec3 env_direction(vec2 uv) {
