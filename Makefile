@@ -104,19 +104,26 @@ bench: all
 	tests/bench/run
 
 BOOK := $(patsubst chapters/%/README.md,build/book/%.html,\
-          $(wildcard chapters/*/README.md)) build/book/index.html
+          $(wildcard chapters/*/README.md)) \
+        build/book/index.html build/book/references.html
 book: $(BOOK)
-build/book/index.tsv: $(wildcard chapters/*/README.md) $(wildcard src/*.[ch])
+build/book/index.tsv: $(wildcard chapters/*/README.md) $(wildcard src/*.[ch]) \
+                      chapters/weave.py
 	@mkdir -p $(@D)
 	python3 chapters/weave.py index > $@
-build/book/index.html: chapters/README.md build/book/index.tsv
-	$(call pandoc,facet)
-build/book/%.html: chapters/%/README.md chapters/book.lua build/book/index.tsv
-	@mkdir -p build/book/images && cp -r chapters/$*/images build/book/$*-images
-	$(call pandoc,$*)
-pandoc = pandoc -f gfm+footnotes -t html5 --mathml -s -M index=build/book/index.tsv \
-  -M pagetitle=$(1) -M chapter=$(1) --css book.css --lua-filter chapters/book.lua \
-  $< -o $@ && cp chapters/book.css build/book/
+build/book/index.html: chapters/README.md
+	$(call pandoc,index,facet)
+build/book/references.html: chapters/references.md
+	$(call pandoc,references,References)
+build/book/%.html: chapters/%/README.md
+	@mkdir -p build/book/$*-images
+	cp chapters/$*/images/* build/book/$*-images/
+	$(call pandoc,$*,$*)
+$(BOOK): chapters/book.lua chapters/book.css build/book/index.tsv
+pandoc = pandoc -f gfm+footnotes -t html5 --mathml -s \
+  -M index=build/book/index.tsv -M chapter=$(1) -M pagetitle=$(2) \
+  --css book.css --lua-filter chapters/book.lua $< -o $@ && \
+  cp chapters/book.css build/book/
 
 format:
 	clang-format-14 -i src/*.[ch] tests/*.c chapters/*/figures.c
