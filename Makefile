@@ -112,16 +112,16 @@ build/book/index.tsv: $(wildcard chapters/*/README.md) $(wildcard src/*.[ch]) \
 	@mkdir -p $(@D)
 	python3 chapters/weave.py index > $@
 build/book/index.html: chapters/README.md
-	$(call pandoc,index,facet)
+	$(call pandoc,index)
 build/book/references.html: chapters/references.md
-	$(call pandoc,references,References)
+	$(call pandoc,references)
 build/book/%.html: chapters/%/README.md
 	@mkdir -p build/book/$*-images
 	cp chapters/$*/images/* build/book/$*-images/
-	$(call pandoc,$*,$*)
+	$(call pandoc,$*)
 $(BOOK): chapters/book.lua chapters/book.css build/book/index.tsv
 pandoc = pandoc -f gfm+footnotes -t html5 --mathml -s \
-  -M index=build/book/index.tsv -M chapter=$(1) -M pagetitle=$(2) \
+  -M index=build/book/index.tsv -M chapter=$(1) -M pagetitle=facet \
   --css book.css --lua-filter chapters/book.lua $< -o $@ && \
   cp chapters/book.css build/book/
 
