@@ -146,13 +146,6 @@ void mesh_extent(const mesh *m, vec3 *lo, vec3 *hi) {
   }
 }
 
-size_t mesh_count_non_finite(const mesh *m) {
-  size_t n = 0;
-  for (size_t i = 0; i < m->position_count; i++)
-    n += !vec3_finite(m->positions[i]);
-  return n;
-}
-
 // An edge by the places of its ends, the lesser first.
 typedef struct placed_edge {
   vec3 a, b;

@@ -18,9 +18,6 @@ bool mesh_join(mesh *out, const mesh *parts, size_t n, arena *mem, error *err);
 // Bounds of the finite corners of triangles; lo > hi when there are none.
 void mesh_extent(const mesh *m, vec3 *lo, vec3 *hi);
 
-// Positions with a component that is not finite.
-size_t mesh_count_non_finite(const mesh *m);
-
 // Whether the triangles t with tag[t] == value close off a solid: every edge
 // is shared by an even number of them.  Corners at equal places are one.
 bool mesh_is_closed(const mesh *m, const uint32_t *tag, uint32_t value);

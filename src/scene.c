@@ -94,12 +94,6 @@ static bool load_part(scene_loader *l, size_t i) {
   l->out->times.triangulate += t.triangulate;
   l->out->times.bytes += t.bytes;
   mesh_place(part, m->scale, m->up_z);
-  size_t bad = mesh_count_non_finite(part);
-  if (bad > 0)
-    report_warn(l->r,
-                "%s: %zu vertices are not finite, their faces are left "
-                "out",
-                m->path, bad);
   l->written[i] = ARENA_NEW(l->mem, const mtl_material *, part->material_count);
   return material_list_written(l->written[i], part, m->path, l->mem, l->r,
                                l->err);
