@@ -180,8 +180,8 @@ static int pass_samples(const job *j) {
   int done = j->end, left = s->spp - done;
   bool waits =
       s->deadline > 0 || s->error > 0 || s->stop != NULL || s->progress != NULL;
-  if (!waits) return left;
-  if (done == 0) return left < 1 ? left : 1;
+  if (!waits || left < 1) return left;
+  if (done == 0) return 1;
   if (s->stop != NULL && *s->stop) return 0;
   if (s->error > 0 && done >= ERROR_MIN_SPP && j->error <= s->error) return 0;
   double now = seconds_now(), each = (now - j->start) / done;
