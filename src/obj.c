@@ -15,6 +15,9 @@
 // for a cache and for many threads.
 enum { OBJ_PIECE = 1 << 20, OBJ_PIECE_MAX = 1 << 22 };
 
+// Parsed pieces are kept in blocks of this size.
+enum { OBJ_BLOCK = 1 << 24 };
+
 // One reading of one file.  Chunks, places and findings have one entry per
 // piece (places one more), buffers and scratch one per worker.
 typedef struct obj_job {
@@ -24,6 +27,8 @@ typedef struct obj_job {
   obj_place *places;
   obj_findings *findings;
   obj_buffer *buffers;
+  obj_chunk *growing;  // chunks in the making
+  obj_store *stores;   // and where they are packed
   obj_scratch *scratch;
   int workers;
   atomic_size_t failed;  // the first piece known to have a problem
@@ -43,17 +48,18 @@ static double now_seconds(void) {
 // file is the one that counts.
 static void parse_piece(void *context, size_t i, int worker) {
   obj_job *job = context;
-  obj_chunk *c = &job->chunks[i];
+  obj_chunk *c = &job->growing[worker];
   if (i > atomic_load(&job->failed)) return;
   span text;
-  c->watched_face = SIZE_MAX;
+  obj_chunk_reset(c);
   if (obj_source_read(&job->source, i, &job->buffers[worker], &text,
                       &c->problem)) {
     obj_parse(c, text);
   } else {
     c->problem_line = NO_LINE;
   }
-  if (c->problem_line == 0) return;
+  job->chunks[i] = obj_chunk_pack(c, &job->stores[worker]);
+  if (job->chunks[i].problem_line == 0) return;
   size_t first = atomic_load(&job->failed);
   while (i < first && !atomic_compare_exchange_weak(&job->failed, &first, i))
     continue;
@@ -63,14 +69,12 @@ static void merge_piece_vertices(void *context, size_t i, int worker) {
   obj_job *job = context;
   (void)worker;
   obj_merge_vertices(&job->m, &job->chunks[i], &job->places[i]);
-  obj_chunk_free_vertices(&job->chunks[i]);
 }
 
 static void merge_piece_faces(void *context, size_t i, int worker) {
   obj_job *job = context;
   job->findings[i] = obj_merge_faces(&job->m, &job->chunks[i], &job->places[i],
                                      &job->scratch[worker]);
-  obj_chunk_free(&job->chunks[i]);
 }
 
 // The message of the first malformed statement.
@@ -100,9 +104,9 @@ static uint64_t face_line(obj_job *job, size_t i, size_t face,
 static bool position_problem(obj_job *job, size_t i, error *err) {
   const obj_findings *f = &job->findings[i];
   size_t at_line;
-  uint64_t line = face_line(job, i, f->position.first, &at_line);
+  uint64_t line = face_line(job, i, f->index[0].first, &at_line);
   const char *name = job->source.name;
-  long long bad = (long long)f->bad_position;
+  long long bad = (long long)f->index[0].index;
   if (bad >= 0)
     return fail(err,
                 "%s:%" PRIu64 ": position %lld does not exist, expected "
@@ -120,7 +124,7 @@ static void allocate_mesh(obj_job *job, arena *mem) {
   obj_place total = job->places[job->pieces];
   bool colors = false, texcoords = false, normals = false;
   for (size_t i = 0; i < job->pieces; i++) {
-    colors = colors || job->chunks[i].colors != NULL;
+    colors = colors || job->chunks[i].has_color;
     texcoords = texcoords || job->chunks[i].has_texcoord;
     normals = normals || job->chunks[i].has_normal;
   }
@@ -245,9 +249,9 @@ static void report_flaw(obj_job *job, report *r, size_t offset,
 }
 
 static void report_flaws(obj_job *job, report *r) {
-  report_flaw(job, r, offsetof(obj_findings, texcoord),
+  report_flaw(job, r, offsetof(obj_findings, index[1]),
               "face(s) with a texture coordinate that does not exist");
-  report_flaw(job, r, offsetof(obj_findings, normal),
+  report_flaw(job, r, offsetof(obj_findings, index[2]),
               "face(s) with a normal that does not exist");
   report_flaw(job, r, offsetof(obj_findings, polygon),
               "polygon(s) without area or crossing themselves, cut anyhow");
@@ -271,10 +275,10 @@ static bool merge_pieces(obj_job *job, const obj_request *q, arena *mem,
   pool_run(q->threads, job->pieces, merge_piece_faces, job);
   bool texcoords = false, normals = false;
   for (size_t i = 0; i < job->pieces; i++) {
-    if (job->findings[i].position.count > 0)
+    if (job->findings[i].index[0].count > 0)
       return position_problem(job, i, err);
-    texcoords = texcoords || job->findings[i].has_texcoord;
-    normals = normals || job->findings[i].has_normal;
+    texcoords = texcoords || job->findings[i].has[1];
+    normals = normals || job->findings[i].has[2];
   }
   if (!texcoords) job->m.texcoord_index = NULL;
   if (!normals) job->m.normal_index = NULL;
@@ -298,6 +302,32 @@ static bool open_source(obj_source *s, const obj_request *q, size_t piece,
   return true;
 }
 
+// What each piece and each worker needs.
+static void prepare(obj_job *job, arena *own) {
+  size_t workers = (size_t)job->workers;
+  job->pieces = obj_source_pieces(&job->source);
+  job->chunks = ARENA_NEW(own, obj_chunk, job->pieces);
+  job->places = ARENA_NEW(own, obj_place, job->pieces + 1);
+  job->findings = ARENA_NEW(own, obj_findings, job->pieces);
+  job->buffers = ARENA_NEW(own, obj_buffer, workers);
+  job->growing = ARENA_NEW(own, obj_chunk, workers);
+  job->stores = ARENA_NEW(own, obj_store, workers);
+  job->scratch = ARENA_NEW(own, obj_scratch, workers);
+  for (size_t i = 0; i < workers; i++)
+    job->stores[i].block_bytes = job->pieces > 4 ? OBJ_BLOCK : OBJ_PIECE / 4;
+  atomic_init(&job->failed, SIZE_MAX);
+}
+
+static void release(obj_job *job) {
+  for (int i = 0; i < job->workers; i++) {
+    array_free(job->buffers[i].bytes);
+    obj_chunk_free(&job->growing[i]);
+    arena_free(&job->stores[i].mem);
+    obj_scratch_free(&job->scratch[i]);
+  }
+  obj_source_close(&job->source);
+}
+
 bool obj_read_request(mesh *out, const obj_request *q, arena *mem, report *r,
                       error *err) {
   arena own = {0}, result = {0};
@@ -309,13 +339,7 @@ bool obj_read_request(mesh *out, const obj_request *q, arena *mem, report *r,
     arena_free(&own);
     return false;
   }
-  job.pieces = obj_source_pieces(&job.source);
-  job.chunks = ARENA_NEW(&own, obj_chunk, job.pieces);
-  job.places = ARENA_NEW(&own, obj_place, job.pieces + 1);
-  job.findings = ARENA_NEW(&own, obj_findings, job.pieces);
-  job.buffers = ARENA_NEW(&own, obj_buffer, (size_t)job.workers);
-  job.scratch = ARENA_NEW(&own, obj_scratch, (size_t)job.workers);
-  atomic_init(&job.failed, SIZE_MAX);
+  prepare(&job, &own);
   pool_run(q->threads, job.pieces, parse_piece, &job);
   if (q->times != NULL)
     *q->times = (obj_times){.read_parse = now_seconds() - start,
@@ -324,13 +348,7 @@ bool obj_read_request(mesh *out, const obj_request *q, arena *mem, report *r,
   if (ok) *out = job.m;
   if (ok) arena_adopt(mem, &result);
   arena_free(&result);
-  for (size_t i = 0; i < job.pieces; i++)
-    obj_chunk_free(&job.chunks[i]);
-  for (int i = 0; i < job.workers; i++) {
-    array_free(job.buffers[i].bytes);
-    obj_scratch_free(&job.scratch[i]);
-  }
-  obj_source_close(&job.source);
+  release(&job);
   arena_free(&own);
   return ok;
 }

@@ -3,6 +3,7 @@
 #ifndef OBJ_CHUNK_H
 #define OBJ_CHUNK_H
 
+#include "arena.h"
 #include "error.h"
 #include "vec.h"
 
@@ -71,13 +72,17 @@ typedef struct obj_unknown {
 // Keywords that are remembered; statements are counted beyond.
 enum { OBJ_UNKNOWN_MAX = 64 };
 
-// Everything a piece says.  Lines count from 1 at its start.  Start with {0}
-// but for watched_face.
+// Everything a piece says.  Lines count from 1 at its start.  It grows while
+// it is parsed; obj_chunk_pack leaves what was found in exactly the bytes that
+// it needs, with the corners in one array per kind of index.
 typedef struct obj_chunk {
-  vec3 *positions, *colors, *normals;  // colors: NULL or one per position
+  vec3 *positions, *colors, *normals;  // colors: one per position, if any
   vec2 *texcoords;
-  obj_corner *corners;
-  uint32_t *faces;  // corners of each
+  obj_corner *corners;         // NULL when packed
+  uint32_t *position_indices;  // NULL before; one per corner
+  uint32_t *texcoord_indices;  // or NULL when no corner has one
+  uint32_t *normal_indices;
+  uint32_t *faces;  // corners of each; NULL when packed and all have three
   obj_event *events;
   char *names;
   obj_unknown *unknown;
@@ -88,6 +93,7 @@ typedef struct obj_chunk {
   size_t triangle_count;
   uint64_t line_count;
   obj_tally tally[OBJ_TALLY_COUNT];
+  bool has_color;                 // some position has one
   bool has_texcoord, has_normal;  // some corner has one
   // The first malformed statement; parsing stops there.
   error problem;
@@ -122,8 +128,22 @@ static inline bool obj_index(long long written, size_t count, uint32_t *out) {
   return true;
 }
 
-// Release parts of it, or all.
-void obj_chunk_free_vertices(obj_chunk *c);
+// Where packed chunks are kept: blocks, filled one after the other.
+typedef struct obj_store {
+  arena mem;
+  size_t block_bytes;  // of a new block
+  char *at;
+  size_t left;
+} obj_store;
+
+// Move what c holds into the store; *c is empty again, but keeps its room for
+// the next piece.
+obj_chunk obj_chunk_pack(obj_chunk *c, obj_store *store);
+
+// Empty a chunk; the next parse watches for no face.
+void obj_chunk_reset(obj_chunk *c);
+
+// Release the room of a chunk that was not packed.
 void obj_chunk_free(obj_chunk *c);
 
 #endif

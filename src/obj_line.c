@@ -69,16 +69,16 @@ static bool take_numbers(obj_chunk *c, span *line, uint64_t number, float *x,
   return true;
 }
 
-// Give every position so far a colour, white where it had none, so that the
-// next one can be added.
+// The colour of the last position.  The first one that comes makes all before
+// it white.
 static void add_color(obj_chunk *c, vec3 color) {
-  bool first = c->colors == NULL;
   size_t n = c->position_count;
-  if (n > c->color_room || first)
+  if (n > c->color_room)
     c->colors = array_grow(c->colors, &c->color_room, n, sizeof color);
-  for (size_t i = 0; first && i + 1 < n; i++)
+  for (size_t i = 0; !c->has_color && i + 1 < n; i++)
     c->colors[i] = vec3_all(1);
   c->colors[n - 1] = color;
+  c->has_color = true;
 }
 
 // v x y z, with w (ignored: a weight of curves), or with red green blue.
@@ -93,7 +93,7 @@ static void line_position(obj_chunk *c, span line, uint64_t number) {
   if (n == 5 || n > 6) tally(c, OBJ_TALLY_EXTRA, number);
   obj_add_position(c, (vec3){x[0], x[1], x[2]});
   if (n >= 6) add_color(c, (vec3){x[3], x[4], x[5]});
-  if (n < 6 && c->colors != NULL) add_color(c, vec3_all(1));
+  if (n < 6 && c->has_color) add_color(c, vec3_all(1));
 }
 
 static void line_normal(obj_chunk *c, span line, uint64_t number) {

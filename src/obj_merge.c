@@ -35,8 +35,7 @@ void obj_merge_vertices(mesh *m, const obj_chunk *c, const obj_place *at) {
              c->texcoord_count * sizeof *c->texcoords);
   if (m->colors == NULL) return;
   for (size_t i = 0; i < c->position_count; i++)
-    m->colors[at->position + i] =
-        c->colors != NULL ? c->colors[i] : vec3_all(1);
+    m->colors[at->position + i] = c->has_color ? c->colors[i] : vec3_all(1);
 }
 
 // A chunk's index as one of the whole file; negative when it reaches back too
@@ -46,89 +45,135 @@ static int64_t resolve(uint32_t index, size_t base) {
   return (int64_t)base + (int64_t)(index - OBJ_RELATIVE) - (int64_t)OBJ_BACK;
 }
 
-static void add_flaw(obj_flaw *flaw, size_t face) {
-  if (flaw->count++ == 0) flaw->first = face;
-}
-
-// Resolve an optional index in place: MESH_NONE when it is out of range.
-static bool resolve_optional(uint32_t *index, size_t base, size_t total) {
-  if (*index == OBJ_NONE) return true;
-  int64_t i = resolve(*index, base);
-  bool ok = i >= 0 && i < (int64_t)total;
-  *index = ok ? (uint32_t)i : MESH_NONE;
-  return ok;
-}
-
-// Resolve the n corners of a face in place.
-static void resolve_face(const mesh *m, obj_corner *corners, size_t n,
-                         const obj_place *at, size_t face, obj_findings *f) {
-  bool texcoords = true, normals = true;
+// n indices of a chunk as ones of the whole file, where `total` elements are;
+// what is missing or out of range becomes MESH_NONE.  Returns how many are out
+// of range.
+static size_t resolve_all(uint32_t *to, const uint32_t *from, size_t n,
+                          size_t base, size_t total) {
+  size_t bad = 0;
   for (size_t i = 0; i < n; i++) {
-    obj_corner *c = &corners[i];
-    int64_t p = resolve(c->position, at->position);
-    if (p < 0 || p >= (int64_t)m->position_count) {
-      if (f->position.count == 0) f->bad_position = p;
-      add_flaw(&f->position, face);
-      p = 0;
+    uint32_t index = from[i];
+    if (index >= total && index != OBJ_NONE) {
+      int64_t found = resolve(index, base);
+      bool ok = found >= 0 && found < (int64_t)total;
+      bad += !ok;
+      index = ok ? (uint32_t)found : MESH_NONE;
     }
-    c->position = (uint32_t)p;
-    texcoords &=
-        resolve_optional(&c->texcoord, at->texcoord, m->texcoord_count);
-    normals &= resolve_optional(&c->normal, at->normal, m->normal_count);
-    if (c->texcoord != MESH_NONE) f->has_texcoord = true;
-    if (c->normal != MESH_NONE) f->has_normal = true;
+    to[i] = index;
   }
-  if (!texcoords) add_flaw(&f->texcoord, face);
-  if (!normals) add_flaw(&f->normal, face);
+  return bad;
 }
 
-// Write one corner of the mesh.
-static void set_corner(mesh *m, size_t at, obj_corner c) {
-  m->position_index[at] = c.position;
-  if (m->texcoord_index != NULL) m->texcoord_index[at] = c.texcoord;
-  if (m->normal_index != NULL) m->normal_index[at] = c.normal;
+// The faces of a chunk with some index out of range.
+static obj_flaw find_flaw(const obj_chunk *c, const uint32_t *given,
+                          size_t base, size_t total) {
+  obj_flaw flaw = {0};
+  size_t corner = 0;
+  for (size_t face = 0; face < c->face_count; face++) {
+    size_t end = corner + (c->faces != NULL ? c->faces[face] : 3);
+    bool bad = false;
+    for (uint32_t found; corner < end; corner++) {
+      if (resolve_all(&found, given + corner, 1, base, total) == 0) continue;
+      if (flaw.count == 0 && !bad) flaw.index = resolve(given[corner], base);
+      if (flaw.count == 0) flaw.first = face;
+      bad = true;
+    }
+    flaw.count += bad;
+  }
+  return flaw;
 }
 
-// Cut a face of n > 3 corners into triangles; false when it crosses itself or
-// has no area.
-static bool merge_polygon(mesh *m, const obj_corner *corners, size_t n,
-                          size_t at, obj_scratch *s) {
+// One kind of index: what the chunk has, the array of the mesh (NULL when it
+// has none), where the chunk's elements begin and how many there are in all.
+typedef struct index_kind {
+  const uint32_t *given;
+  uint32_t *mesh;
+  size_t base, total;
+} index_kind;
+
+// Whether any corner has an index.
+static bool has_index(const uint32_t *index, size_t n) {
+  for (size_t i = 0; i < n; i++)
+    if (index[i] != MESH_NONE) return true;
+  return false;
+}
+
+// Resolve one kind of index into `to`, which has room for the corners.
+static obj_flaw merge_kind(const obj_chunk *c, const index_kind *k,
+                           uint32_t *to, bool *has) {
+  size_t n = c->corner_count;
+  if (k->given == NULL) {
+    memset(to, 0xff, n * sizeof *to);
+    return (obj_flaw){0};
+  }
+  size_t bad = resolve_all(to, k->given, n, k->base, k->total);
+  *has = has_index(to, n);
+  return bad > 0 ? find_flaw(c, k->given, k->base, k->total) : (obj_flaw){0};
+}
+
+// Cut a polygon into triangles, given as corners from 0; false when it crosses
+// itself or has no area.
+static bool cut_polygon(const mesh *m, const uint32_t *positions, size_t n,
+                        obj_scratch *s) {
   s->points = array_grow(s->points, &s->point_room, n, sizeof *s->points);
   s->corners =
       array_grow(s->corners, &s->corner_room, 3 * n, sizeof *s->corners);
   for (size_t i = 0; i < n; i++)
-    s->points[i] = m->positions[corners[i].position];
+    s->points[i] = m->positions[positions[i]];
   bool ok = polygon_triangulate(s->points, n, s->corners, &s->mem);
   arena_free(&s->mem);
-  for (size_t i = 0; i < 3 * (n - 2); i++)
-    set_corner(m, at + i, corners[s->corners[i]]);
   return ok;
 }
 
-obj_findings obj_merge_faces(mesh *m, obj_chunk *c, const obj_place *at,
-                             obj_scratch *scratch) {
-  obj_findings f = {0};
-  obj_corner *corners = c->corners;
-  size_t out = 3 * at->triangle;
+// Cut all faces of a chunk, whose corners are resolved in the scratch memory,
+// and write the triangles into the kinds' arrays from `out` on.
+static obj_flaw cut_faces(const mesh *m, const obj_chunk *c,
+                          const index_kind kinds[3], size_t out,
+                          obj_scratch *s) {
+  obj_flaw flaw = {0};
+  size_t first = 0;
   for (size_t face = 0; face < c->face_count; face++) {
     size_t n = c->faces[face];
-    resolve_face(m, corners, n, at, face, &f);
-    if (f.position.count > 0) return f;
-    if (n == 3) {
-      for (size_t i = 0; i < 3; i++)
-        set_corner(m, out + i, corners[i]);
-    } else if (!merge_polygon(m, corners, n, out, scratch)) {
-      add_flaw(&f.polygon, face);
-    }
-    corners += n;
+    if (!cut_polygon(m, s->resolved[0] + first, n, s) && flaw.count++ == 0)
+      flaw.first = face;
+    for (int k = 0; k < 3; k++)
+      for (size_t i = 0; kinds[k].mesh != NULL && i < 3 * (n - 2); i++)
+        kinds[k].mesh[out + i] = s->resolved[k][first + s->corners[i]];
+    first += n;
     out += 3 * (n - 2);
   }
+  return flaw;
+}
+
+obj_findings obj_merge_faces(const mesh *m, const obj_chunk *c,
+                             const obj_place *at, obj_scratch *s) {
+  index_kind kinds[3] = {
+      {c->position_indices, m->position_index, at->position, m->position_count},
+      {c->texcoord_indices, m->texcoord_index, at->texcoord, m->texcoord_count},
+      {c->normal_indices, m->normal_index, at->normal, m->normal_count},
+  };
+  obj_findings f = {0};
+  size_t n = c->corner_count, out = 3 * at->triangle;
+  for (int k = 0; k < 3; k++) {
+    // Triangles go straight into the mesh.
+    uint32_t *to = kinds[k].mesh != NULL ? kinds[k].mesh + out : NULL;
+    if (to == NULL || c->faces != NULL) {
+      s->resolved[k] = array_grow(s->resolved[k], &s->resolved_room[k], n,
+                                  sizeof *s->resolved[k]);
+      to = s->resolved[k];
+    }
+    f.index[k] = merge_kind(c, &kinds[k], to, &f.has[k]);
+  }
+  if (f.index[0].count == 0 && c->faces != NULL)
+    f.polygon = cut_faces(m, c, kinds, out, s);
   return f;
 }
 
 void obj_scratch_free(obj_scratch *s) {
   array_free(s->points);
   array_free(s->corners);
+  for (int k = 0; k < 3; k++)
+    array_free(s->resolved[k]);
   arena_free(&s->mem);
   *s = (obj_scratch){0};
 }

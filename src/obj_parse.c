@@ -38,7 +38,7 @@ static const char *fast_three(const char *p, const char *end, vec3 *out) {
 
 static const char *fast_position(obj_chunk *c, const char *p, const char *end) {
   vec3 v;
-  if (c->colors != NULL) return NULL;
+  if (c->has_color) return NULL;
   p = fast_three(p, end, &v);
   if (p != NULL) obj_add_position(c, v);
   return p;
