@@ -19,7 +19,7 @@ typedef struct library_reader {
 } library_reader;
 
 // Read the library at path, once; false when it is malformed.
-static bool read_once(library_reader *l, const char *path) {
+static bool read_library_once(library_reader *l, const char *path) {
   for (size_t i = 0; i < l->read_count; i++)
     if (strcmp(l->read[i], path) == 0) return true;
   l->read[l->read_count++] = path;
@@ -31,7 +31,7 @@ static bool read_once(library_reader *l, const char *path) {
 static bool read_mtllib(library_reader *l, const char *line) {
   const char *tried, *whole;
   char *found = path_find(l->mem, l->folder, line, l->path, l->r, &tried);
-  if (found != NULL) return read_once(l, found);
+  if (found != NULL) return read_library_once(l, found);
   whole = tried;
   const char *missing = NULL;
   size_t found_words = 0;
@@ -44,7 +44,7 @@ static bool read_mtllib(library_reader *l, const char *line) {
       continue;
     }
     found_words++;
-    if (!read_once(l, found)) return false;
+    if (!read_library_once(l, found)) return false;
   }
   if (found_words == 0) missing = whole;
   if (missing == NULL) return true;

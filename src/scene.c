@@ -23,7 +23,7 @@ typedef struct scene_loader {
 } scene_loader;
 
 // A monotonic clock, in seconds.
-static double seconds_now(void) {
+static double load_clock(void) {
   struct timespec t;
   clock_gettime(CLOCK_MONOTONIC, &t);
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
@@ -121,10 +121,10 @@ static bool load_meshes(scene_loader *l) {
   if (!material_list_decide(&list, &s->mesh, written, &s->file,
                             !o->no_name_rules, l->mem, l->err))
     return false;
-  double start = seconds_now();
+  double start = load_clock();
   s->textures = (texture_store){.mem = l->mem};
   material_list_textures(&list, &s->textures, o->skip_textures, l->r);
-  s->seconds_textures += seconds_now() - start;
+  s->seconds_textures += load_clock() - start;
   s->materials = list.materials;
   s->material_count = list.count;
   s->material_of = list.of_triangle;
@@ -152,10 +152,10 @@ static bool load_env(scene_loader *l) {
     e->path = path_find(l->mem, folder, e->path, place, l->r, &tried);
     if (e->path == NULL)
       return fail(l->err, "%s: environment not found, tried %s", place, tried);
-    double start = seconds_now();
+    double start = load_clock();
     if (!o->skip_textures && !env_load(out, e->path, l->mem, l->r, l->err))
       return false;
-    l->out->seconds_textures += seconds_now() - start;
+    l->out->seconds_textures += load_clock() - start;
   }
   out->rotate = e->rotate_deg / 360;
   out->scale = e->scale;
@@ -165,7 +165,7 @@ static bool load_env(scene_loader *l) {
 bool scene_load(scene *out, const char *path, const scene_options *options,
                 arena *mem, pool *threads, report *r, error *err) {
   static const scene_options usual = {0};
-  double start = seconds_now();
+  double start = load_clock();
   scene s = {.path = arena_format(mem, "%s", path)};
   scene_loader l = {.out = &s,
                     .options = options == NULL ? &usual : options,
@@ -181,7 +181,7 @@ bool scene_load(scene *out, const char *path, const scene_options *options,
   s.film_width = s.file.film_width;
   s.film_height = s.file.film_height;
   s.exposure = s.file.exposure;
-  s.seconds_load = seconds_now() - start - s.seconds_textures;
+  s.seconds_load = load_clock() - start - s.seconds_textures;
   *out = s;
   return true;
 }
