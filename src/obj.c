@@ -96,8 +96,9 @@ static uint64_t face_line(obj_job *job, size_t i, size_t face,
   if (obj_source_read(&job->source, i, &job->buffers[0], &text, &ignored))
     obj_parse(&c, text);
   *positions = job->places[i].position + c.watched_positions;
+  uint64_t line = job->places[i].line + c.watched_line;
   obj_chunk_free(&c);
-  return job->places[i].line + c.watched_line;
+  return line;
 }
 
 // The message of the first face with a position that does not exist.

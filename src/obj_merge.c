@@ -154,6 +154,7 @@ obj_findings obj_merge_faces(const mesh *m, const obj_chunk *c,
   };
   obj_findings f = {0};
   size_t n = c->corner_count, out = 3 * at->triangle;
+  if (n == 0) return f;
   for (int k = 0; k < 3; k++) {
     // Triangles go straight into the mesh.
     uint32_t *to = kinds[k].mesh != NULL ? kinds[k].mesh + out : NULL;

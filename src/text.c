@@ -172,7 +172,8 @@ span text_uncomment(span s) {
 }
 
 bool span_is(span s, const char *word) {
-  return strlen(word) == s.length && memcmp(s.at, word, s.length) == 0;
+  size_t n = strlen(word);
+  return n == s.length && (n == 0 || memcmp(s.at, word, n) == 0);
 }
 
 char *span_copy(arena *mem, span s) {
