@@ -93,8 +93,10 @@ static inline shape shape_sphere(arena *mem, uint32_t n) {
         uint32_t b1 = at_big + (side * big + i + 1) % nb;
         uint32_t s0 = at_small + (side * small + i) % ns;
         uint32_t s1 = at_small + (side * small + i + 1) % ns;
-        shape_triangle(&s, b0, b1, s0);
-        if (i + 1 < big) shape_triangle(&s, s0, b1, s1);
+        // Counter-clockwise from outside in either half.
+        bool up = k <= n;
+        shape_triangle(&s, up ? b0 : b1, up ? b1 : b0, s0);
+        if (i + 1 < big) shape_triangle(&s, s0, up ? b1 : s1, up ? s1 : b1);
       }
     }
     old = first;
