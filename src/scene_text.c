@@ -14,9 +14,11 @@ typedef struct scene_writer {
   size_t length, room;
 } scene_writer;
 
+static void say(scene_writer *w, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
 // Append printf-style.
-__attribute__((format(printf, 2, 3))) static void say(scene_writer *w,
-                                                      const char *format, ...) {
+static void say(scene_writer *w, const char *format, ...) {
   va_list args;
   va_start(args, format);
   int n = vsnprintf(NULL, 0, format, args);
