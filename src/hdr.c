@@ -218,8 +218,8 @@ static vec3 hdr_decode(const uint8_t *b) {
   return (vec3){(float)b[0] * unit, (float)b[1] * unit, (float)b[2] * unit};
 }
 
-// CIE XYZ to linear RGB with the primaries and the white of sRGB.
-// Source: IEC 61966-2-1:1999, section 5.2, to seven digits.
+// CIE XYZ to linear RGB: the matrix of the primaries and the white of sRGB,
+// inverted.  Source: IEC 61966-2-1:1999, section 5.2, which prints four digits.
 static vec3 rgb_of_xyz(vec3 c) {
   return (vec3){3.2404542f * c.x - 1.5371385f * c.y - 0.4985314f * c.z,
                 -0.9692660f * c.x + 1.8760108f * c.y + 0.0415560f * c.z,

@@ -36,8 +36,7 @@ typedef struct pixmap {
 } pixmap;
 
 // The sRGB transfer curve, both ways, in double precision; x in [0, 1].
-// Source: IEC 61966-2-1:1999, section 5.2, with the constants that make it
-// continuous to double precision only at the published 4 digits.
+// Source: IEC 61966-2-1:1999, section 5.2.  Its two pieces meet within 1e-7.
 double srgb_encode(double x);
 double srgb_decode(double y);
 

@@ -8,7 +8,8 @@
 #include <setjmp.h>
 
 // Huffman codes need a bit for each block of 8 x 8 samples, so that a byte
-// cannot stand for more pixels than this.
+// cannot stand for more pixels than this.  Source: ITU-T T.81, F.1.2.1: every
+// block's DC coefficient has a code.
 enum { HUFFMAN_MAX_PIXELS = 8 * 64 };
 
 // A progressive file may repaint all of the picture with every few bytes.  Real
