@@ -59,6 +59,8 @@ static void jpeg_check_size(jpeg_job *job) {
   uint64_t w = job->jpeg.image_width, h = job->jpeg.image_height;
   if (w > IMAGE_MAX_SIDE || h > IMAGE_MAX_SIDE)
     jpeg_refuse(job, "a side is longer than 65535 pixels");
+  if (job->jpeg.num_components == 4)
+    jpeg_refuse(job, "it is in CMYK, expected grey or RGB");
   if (job->jpeg.arith_code) jpeg_refuse(job, "arithmetic coding is not read");
   if (w * h / HUFFMAN_MAX_PIXELS > job->file_bytes)
     jpeg_refuse(job, "the file is too short for its width and height");

@@ -91,6 +91,7 @@ static void refused_kinds(void **state) {
   picture p = {0};
   blob b = jpeg_made((jpeg_kind){JCS_CMYK, 4, false, false, NULL});
   assert_false(blob_load(JPEG, b.bytes, b.size, &p, &mem, &err));
+  assert_non_null(strstr(err.text, "CMYK"));
   free(b.bytes);
   b = jpeg_made((jpeg_kind){JCS_GRAYSCALE, 1, false, true, NULL});
   assert_false(blob_load(JPEG, b.bytes, b.size, &p, &mem, &err));
