@@ -3,6 +3,7 @@
 #include "obj.h"
 
 #include "obj_merge.h"
+#include "obj_pack.h"
 #include "obj_parse.h"
 #include "obj_source.h"
 
@@ -58,7 +59,7 @@ static void parse_piece(void *context, size_t i, int worker) {
   } else {
     c->problem_line = NO_LINE;
   }
-  job->chunks[i] = obj_chunk_pack(c, &job->stores[worker]);
+  job->chunks[i] = obj_pack(c, &job->stores[worker]);
   if (job->chunks[i].problem_line == 0) return;
   size_t first = atomic_load(&job->failed);
   while (i < first && !atomic_compare_exchange_weak(&job->failed, &first, i))

@@ -3,7 +3,6 @@
 #ifndef OBJ_CHUNK_H
 #define OBJ_CHUNK_H
 
-#include "arena.h"
 #include "error.h"
 #include "vec.h"
 
@@ -73,7 +72,7 @@ typedef struct obj_unknown {
 enum { OBJ_UNKNOWN_MAX = 64 };
 
 // Everything a piece says.  Lines count from 1 at its start.  It grows while
-// it is parsed; obj_chunk_pack leaves what was found in exactly the bytes that
+// it is parsed; obj_pack leaves what was found in exactly the bytes that
 // it needs, with the corners in one array per kind of index.
 typedef struct obj_chunk {
   vec3 *positions, *colors, *normals;  // colors: one per position, if any
@@ -127,18 +126,6 @@ static inline bool obj_index(long long written, size_t count, uint32_t *out) {
          (uint32_t)((long long)OBJ_BACK + (long long)count + written);
   return true;
 }
-
-// Where packed chunks are kept: blocks, filled one after the other.
-typedef struct obj_store {
-  arena mem;
-  size_t block_bytes;  // of a new block
-  char *at;
-  size_t left;
-} obj_store;
-
-// Move what c holds into the store; *c is empty again, but keeps its room for
-// the next piece.
-obj_chunk obj_chunk_pack(obj_chunk *c, obj_store *store);
 
 // Empty a chunk; the next parse watches for no face.
 void obj_chunk_reset(obj_chunk *c);
