@@ -15,12 +15,12 @@ typedef struct point64 {
 
 // The hit triangle: corners, weights (their sum is 1), unit normals at the
 // corners, and a vector along the normal of the facet, of any length.
-typedef struct facet {
+typedef struct hit_facet {
   vec3 p[3], n[3];
   double b[3];
   point64 normal;
   bool smooth;  // some corner has a normal of its own
-} facet;
+} hit_facet;
 
 static point64 point64_of(vec3 a) {
   return (point64){(double)a.x, (double)a.y, (double)a.z};
@@ -59,7 +59,7 @@ static vec3 point64_unit(point64 a) {
 // The unit normals that the file or the smoothing groups give the corners,
 // ng where there is none.  When they point away from ng's side as a whole
 // they are turned round: the winding decides.
-static void corner_normals(facet *f, const mesh *m, uint32_t triangle,
+static void corner_normals(hit_facet *f, const mesh *m, uint32_t triangle,
                            vec3 ng) {
   float side = 0;
   for (int i = 0; i < 3; i++) {
@@ -89,7 +89,7 @@ static float rounding_error(float p, float p0, float p1, float p2) {
 
 // Taken from corner 0, so that the point is in the triangle's plane whatever
 // the rounding of b1 and b2.
-static point64 facet_point(const facet *f) {
+static point64 facet_point(const hit_facet *f) {
   point64 o = point64_of(f->p[0]);
   point64 a = point64_mad(point64_of(f->p[1]), -1, o);
   point64 b = point64_mad(point64_of(f->p[2]), -1, o);
@@ -102,7 +102,7 @@ static point64 facet_point(const facet *f) {
 #define INWARD_STEPS 4
 
 // From p towards the middle of the triangle.
-static vec3 inward_step(const facet *f, point64 p, vec3 p_error) {
+static vec3 inward_step(const hit_facet *f, point64 p, vec3 p_error) {
   point64 middle = {0, 0, 0};
   for (int i = 0; i < 3; i++)
     middle = point64_mad(middle, 1.0 / 3, point64_of(f->p[i]));
@@ -116,7 +116,7 @@ static vec3 inward_step(const facet *f, point64 p, vec3 p_error) {
 // How far the smooth surface is from the facet at p: each corner's tangent
 // plane where it is above p, weighted.  side is +1 for the side that the
 // normals are on.
-static point64 smooth_lift(const facet *f, point64 p, double side) {
+static point64 smooth_lift(const hit_facet *f, point64 p, double side) {
   point64 lift = {0, 0, 0};
   if (!f->smooth) return lift;
   for (int i = 0; i < 3; i++) {
@@ -135,8 +135,8 @@ static vec3 corner_blend(const vec3 a[3], const double b[3]) {
   return vec3_mad(sum, (float)b[2], a[2]);
 }
 
-static facet facet_at(const mesh *m, const hit *h) {
-  facet f = {
+static hit_facet facet_at(const mesh *m, const hit *h) {
+  hit_facet f = {
       .b = {1 - (double)h->b1 - (double)h->b2, (double)h->b1, (double)h->b2}};
   for (size_t i = 0; i < 3; i++)
     f.p[i] = m->positions[m->position_index[3 * (size_t)h->triangle + i]];
@@ -144,7 +144,7 @@ static facet facet_at(const mesh *m, const hit *h) {
   return f;
 }
 
-static vec3 color_at(const mesh *m, const hit *h, const facet *f) {
+static vec3 color_at(const mesh *m, const hit *h, const hit_facet *f) {
   if (m->colors == NULL) return vec3_all(1);
   vec3 c[3];
   for (size_t i = 0; i < 3; i++)
@@ -153,7 +153,7 @@ static vec3 color_at(const mesh *m, const hit *h, const facet *f) {
 }
 
 surface surface_at(const scene *s, const hit *h, vec3 d) {
-  facet f = facet_at(&s->mesh, h);
+  hit_facet f = facet_at(&s->mesh, h);
   surface at = {.triangle = h->triangle, .ng = point64_unit(f.normal)};
   corner_normals(&f, &s->mesh, h->triangle, at.ng);
   at.smooth = f.smooth;

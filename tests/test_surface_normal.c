@@ -234,6 +234,26 @@ static void lifted_points_clear_the_sphere(void **state) {
   arena_free(&mem);
 }
 
+// On a saddle only the corners whose tangent planes rise above p lift it: here
+// corner 0, by b0 times its height along its normal, and no other.
+static void saddles_lift_by_their_ridges(void **state) {
+  (void)state;
+  vec3 p[3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  vec3 n[3] = {
+      vec3_unit((vec3){-1, 0, 2}), vec3_unit((vec3){-1, 0, 2}), {0, 0, 1}};
+  uint32_t index[3] = {0, 1, 2};
+  solid s = {.p = p, .n = n, .index = index, .vertices = 3, .triangles = 1};
+  scene w = solid_scene(&s, true);
+  hit h = {.t = 1, .b1 = 0.5f, .b2 = 0.25f};
+  surface at = surface_at(&w, &h, (vec3){0, 0, -1});
+  float rise = 0.5f / sqrtf(5);
+  vec3 want = vec3_mad(at.p, 0.25f * rise, n[0]);
+  assert_true(vec3_length(vec3_sub(at.p_smooth, want)) < 2e-7f);
+  at = surface_at(&w, &h, (vec3){0, 0, 1});
+  want = vec3_mad(at.p, -0.5f * rise, n[1]);
+  assert_true(vec3_length(vec3_sub(at.p_smooth, want)) < 2e-7f);
+}
+
 // What a path of perfectly white Lambert bounces does on a smooth cube; false
 // when it is still there after 1000.
 static bool walk_escapes(const scene *w, const bvh *tree, ray q, rng *r,
@@ -449,6 +469,7 @@ int main(void) {
       cmocka_unit_test(faced_normals_face),
       cmocka_unit_test(terminator_follows_the_sphere),
       cmocka_unit_test(lifted_points_clear_the_sphere),
+      cmocka_unit_test(saddles_lift_by_their_ridges),
       cmocka_unit_test(smooth_bodies_lose_nothing),
       cmocka_unit_test(bad_normals_are_mended),
       cmocka_unit_test(winding_decides_the_side),
