@@ -11,8 +11,9 @@ static const vec3 SKY_ZENITH = {0.16f, 0.30f, 0.60f};
 static const vec3 SKY_HORIZON = {0.62f, 0.68f, 0.74f};
 static const vec3 SKY_GROUND = {0.11f, 0.10f, 0.09f};
 
-// Its sun: radiance at the centre, and the unit direction towards it: above,
-// left and in front of a camera that looks along -Z.
+// Its sun: radiance at the centre, and the unit direction towards it: high, to
+// the left and in the back of a camera that looks along -Z, so that it lights
+// the sides that the camera sees.
 static const vec3 SKY_SUN = {17.0f, 15.5f, 13.0f};
 static const vec3 SKY_SUN_AT = {-2.0f / 3, 2.0f / 3, 1.0f / 3};
 

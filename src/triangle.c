@@ -71,7 +71,7 @@ static inline float peak_of(const float v[3]) {
 }
 
 // A bound on the error of t as computed in float.  Source: Pharr, Jakob,
-// Humphreys, Physically Based Rendering 4th ed., section 6.8.7.
+// Humphreys, section 6.8.7.
 static float t_error(const sheared *c, float det) {
   const float g2 = 2 * 0x1p-24f, g3 = 3 * 0x1p-24f, g5 = 5.1f * 0x1p-24f;
   float mx = peak_of(c->x), my = peak_of(c->y), mz = peak_of(c->z);
@@ -84,8 +84,7 @@ static float t_error(const sheared *c, float det) {
 // t again, for one that its error bound cannot tell from 0: n.(p0 - o) / n.d
 // in double precision, kept within t +- error, and exactly 0 when the ray
 // starts in the plane of the triangle.  Source: the bound, 8 eps times the
-// permanent of the determinant, follows Shewchuk, "Adaptive Precision
-// Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997.
+// permanent of the determinant, follows Shewchuk 1997.
 static float t_near_zero(const ray *r, const vec3 p[3], float t, float error) {
   double ax = (double)p[0].x - (double)r->o.x,
          bx = (double)p[1].x - (double)p[0].x;

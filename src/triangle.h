@@ -1,8 +1,8 @@
 // triangle.h — where a ray meets a triangle, without leaks.
 //
-// Source: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT
-// 2(1), 2013.  No fused multiply-add anywhere here: contraction breaks the
-// symmetry that makes shared edges watertight.
+// Source: Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection".  No
+// fused multiply-add anywhere here: contraction breaks the symmetry that makes
+// shared edges watertight.
 
 #ifndef TRIANGLE_H
 #define TRIANGLE_H
