@@ -125,11 +125,11 @@ def ground():
             for i in range(72)]
     add("lawn", polygons(disc, [tuple(range(72))]), grass)
     hill = material("hill", (0.10, 0.17, 0.09))
-    for i, (x, y, r, h) in enumerate(((-46, 62, 34, 9), (-8, 74, 30, 6.5),
-                                      (30, 66, 32, 8.5), (66, 52, 30, 7))):
+    for i, (x, y, r, h) in enumerate(((-46, 62, 34, 7), (-8, 74, 30, 4.5),
+                                      (30, 66, 32, 6.5), (66, 52, 30, 5))):
         add("hill_%d" % i, icosphere(r, 4, (1, 0.5, h / r)), hill, (x, y, 0), True)
-    light = material("slab_light", (0.56, 0.51, 0.43))
-    dark = material("slab_dark", (0.24, 0.185, 0.15))
+    light = material("slab_light", (0.58, 0.51, 0.41))
+    dark = material("slab_dark", (0.23, 0.14, 0.10))
     gap, slabs = 0.015, ([], [])
     for i in range(-5, 5):
         for j in range(-5, 3):
@@ -143,7 +143,7 @@ def ground():
 
 
 def masonry():
-    lime = material("lime_wash", (0.66, 0.58, 0.47))
+    lime = material("lime_wash", (0.62, 0.44, 0.29))
     brick = material("brick", (0.36, 0.12, 0.065))
     outline = wall(7.4, 2.35, 3.55, 1.5, 1.15, 24)
     add("wall", extruded(outline, 0.4), lime, (-0.9, 3.1, 0))
@@ -173,8 +173,8 @@ def trees():
          ((1.0, 0.3, 2.1, 0.85), (-1.1, -0.2, 2.3, 0.9)))
     tree("tree_gate", (0.6, 6.4, 0), 1.3, (1.2, 2.9), spring, bark,
          ((-0.9, 0.2, 2.6, 0.7),))
-    tree("tree_right", (5.4, 6.0, 0), 1.5, (1.3, 2.75), autumn, bark,
-         ((-1.05, -0.1, 2.9, 0.75), (1.0, 0.2, 2.6, 0.8)))
+    tree("tree_right", (5.7, 6.1, 0), 1.5, (1.3, 2.75), autumn, bark,
+         ((-0.75, -0.9, 2.5, 0.8), (1.0, 0.2, 2.6, 0.8)))
     for i, (x, y, r, leaf) in enumerate((
             (-12, 17, 1.9, spring), (-8.5, 20, 2.2, summer), (-3.0, 23, 2.0, autumn),
             (3.6, 21, 2.1, summer), (10.5, 19, 2.0, spring), (15, 16, 1.8, summer))):
@@ -187,7 +187,7 @@ def balls():
     iron = material("iron", (0.78, 0.76, 0.73), 0, 1, specular=0.76)
     add("ball_glass", icosphere(0.85, 5), glass, (-2.45, -0.75, 0.06 + 0.85), True)
     add("ball_iron_mirror", icosphere(1.05, 5), iron, (-0.15, 0.55, 0.06 + 1.05), True)
-    row = (("gold", (1.0, 0.71, 0.29), 0.9, 0.35),
+    row = (("gold", (1.0, 0.74, 0.32), 0.9, 0.25),
            ("copper", (0.93, 0.46, 0.32), 0.9, 0.6),
            ("lacquer", (0.45, 0.02, 0.02), 0.05, 0.25),
            ("porcelain", (0.05, 0.12, 0.42), 0.0, 0.1),

@@ -1,4 +1,4 @@
-"""Every kind of surface that facet knows, in two rows on a textured table.
+"""Every kind of surface that facet knows, in two rows on a textured floor.
 
     python3 scenes/materials.py
 
@@ -27,9 +27,9 @@ def tile(x, y):
 
 write_png("materials-tile.png", SIDE, SIDE, tile)
 row = Obj()
-row.material("table", "Kd 1 1 1", "map_Kd -s 6 6 1 materials-tile.png", "illum 1")
-row.quad("table", "table", (-6, 0, 6), (6, 0, 6), (6, 0, -6), (-6, 0, -6),
-         [(0, 0), (1, 0), (1, 1), (0, 1)])
+row.material("floor", "Kd 1 1 1", "map_Kd -s 24 24 1 materials-tile.png", "illum 1")
+row.quad("floor", "floor", (-24, 0, 24), (24, 0, 24), (24, 0, -24), (-24, 0, -24),
+         uv=[(0, 0), (1, 0), (1, 1), (0, 1)])
 CLAY = "Kd 0.60 0.22 0.12"
 kinds = (
     ("lambert", CLAY, "illum 1"),
@@ -38,10 +38,10 @@ kinds = (
     ("exponent_1000", CLAY, "Ks 0.25 0.25 0.25", "Ns 1000", "illum 2"),
     ("mirror", "Kd 0 0 0", "Ks 0.92 0.92 0.92", "illum 3"),
     ("glass", "Kd 0 0 0", "Ks 1 1 1", "Ni 1.5", "illum 7"),
-    ("rough_gold", "Kd 1.0 0.71 0.29", "Pr 0.45", "Pm 1", "illum 3"),
+    ("rough_copper", "Kd 0.95 0.52 0.34", "Pr 0.45", "Pm 1", "illum 3"),
     ("blue_paint", "Kd 0.03 0.10 0.40", "Pr 0.15", "Pm 0", "illum 2"))
 for i, (name, *statements) in enumerate(kinds):
     row.material(name, *statements)
-    row.ball("ball_" + name, name, (2.1 * (i % 4) - 3.15, 0.9, -1.3 if i < 4 else 1.1), 0.9,
+    row.ball("ball_" + name, name, (2.15 * (i % 4) - 3.225, 0.9, -1.6 if i < 4 else 1.2), 0.9,
              4 if name in ("mirror", "glass") else 3)
 row.write("materials")

@@ -1,0 +1,68 @@
+"""The sky of the garden half an hour after sunset, as an equirectangular
+Radiance picture.
+
+    python3 scenes/dusk.py
+
+Row 0 is straight up, the middle of a row is -Z.  No measured sky: a blue that
+darkens upwards, and a glow on the horizon about where the sun went down.
+"""
+import math
+import pathlib
+
+WIDTH, HEIGHT = 256, 128
+SUNSET = math.radians(24)  # from -Z towards +X
+
+ZENITH = (0.09, 0.16, 0.40)
+HORIZON = (0.44, 0.36, 0.36)
+GLOW = (0.95, 0.50, 0.22)
+EMBER = (0.55, 0.10, 0.00)  # a thin red line below the glow
+GROUND = (0.035, 0.035, 0.03)
+
+
+def radiance(azimuth, elevation):
+    if elevation < 0:
+        return GROUND
+    near = 0.5 + 0.5 * math.cos(azimuth - SUNSET)  # 1 at the sunset, 0 opposite
+    up = 1 - math.exp(-3.2 * math.sin(elevation))
+    glow = near ** 3 * math.exp(-elevation / 0.30)
+    ember = near ** 5 * math.exp(-elevation / 0.08)
+    return tuple((h + (z - h) * up) * (1 - glow) + g * glow + e * ember
+                 for z, h, g, e in zip(ZENITH, HORIZON, GLOW, EMBER))
+
+
+def rgbe(color):
+    """Three mantissas and the shared exponent of the largest."""
+    mantissa, exponent = math.frexp(max(color))
+    scale = mantissa * 256 / max(color)
+    return [min(255, round(c * scale)) for c in color] + [exponent + 128]
+
+
+def run_lengths(values):
+    """One component of a row: runs of 4 and more equal values, and the rest."""
+    out, i, plain = bytearray(), 0, []
+    while i <= len(values):
+        n = 1
+        while i + n < len(values) and n < 127 and values[i + n] == values[i]:
+            n += 1
+        if plain and (i == len(values) or n >= 4 or len(plain) == 128):
+            out += bytes([len(plain), *plain])
+            plain = []
+        if i == len(values):
+            break
+        if n >= 4:
+            out += bytes([128 + n, values[i]])
+            i += n
+        else:
+            plain.append(values[i])
+            i += 1
+    return out
+
+
+data = bytearray(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (HEIGHT, WIDTH))
+for y in range(HEIGHT):
+    pixels = [rgbe(radiance(((x + 0.5) / WIDTH - 0.5) * 2 * math.pi,
+                            (0.5 - (y + 0.5) / HEIGHT) * math.pi)) for x in range(WIDTH)]
+    data += bytes([2, 2, WIDTH >> 8, WIDTH & 255])
+    for component in zip(*pixels):
+        data += run_lengths(component)
+(pathlib.Path(__file__).resolve().parent / "dusk.hdr").write_bytes(data)
