@@ -4,6 +4,7 @@
 
 #include "file.h"
 
+#include <jerror.h>
 #include <jpeglib.h>
 #include <setjmp.h>
 
@@ -36,9 +37,14 @@ static _Noreturn void jpeg_failed(j_common_ptr jpeg) {
 }
 
 // Level -1 is a warning: the data is damaged or ends early, and libjpeg would
-// paint the rest grey.  Other levels trace and are not for us.
+// paint the rest grey.  Spare bytes between two segments and odd version
+// numbers are warned of too, but harm nobody: cameras write them.  Other levels
+// trace.
 static void jpeg_said(j_common_ptr jpeg, int level) {
-  if (level < 0) jpeg_failed(jpeg);
+  int code = jpeg->err->msg_code;
+  bool harmless = code == JWRN_EXTRANEOUS_DATA || code == JWRN_JFIF_MAJOR ||
+                  code == JWRN_ADOBE_XFORM;
+  if (level < 0 && !harmless) jpeg_failed(jpeg);
 }
 
 // Leave with our own words.

@@ -109,6 +109,24 @@ static void refused_kinds(void **state) {
   }
 }
 
+// Spare bytes before the last marker, as some cameras write, lose nothing.
+static void spare_bytes(void **state) {
+  (void)state;
+  arena mem = {0};
+  error err = {{0}};
+  picture p = {0}, q = {0};
+  blob b = jpeg_made((jpeg_kind){JCS_RGB, 3, false, false, NULL});
+  blob spare = {calloc(1, b.size + 5), b.size + 5};
+  memcpy(spare.bytes, b.bytes, b.size - 2);
+  memcpy(spare.bytes + b.size + 3, b.bytes + b.size - 2, 2);
+  assert_true(blob_load(JPEG, b.bytes, b.size, &p, &mem, &err));
+  assert_true(blob_load(JPEG, spare.bytes, spare.size, &q, &mem, &err));
+  assert_memory_equal(p.stored.samples, q.stored.samples, 40 * 24 * 3);
+  free(b.bytes);
+  free(spare.bytes);
+  arena_free(&mem);
+}
+
 // A file that sends each bit of each frequency in a scan of its own makes the
 // reader walk over all of the picture 253 times, and is refused.
 static void many_scans(void **state) {
@@ -132,6 +150,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(kinds_come_back),
       cmocka_unit_test(refused_kinds),
+      cmocka_unit_test(spare_bytes),
       cmocka_unit_test(many_scans),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
