@@ -6,7 +6,8 @@ writes beside this script, the same bytes every time (Blender 3.4.1):
 
     garden.obj, .mtl         balls with interpolated normals; the materials
                              with Blender's PBR extensions (Pr, Pm, Tf)
-    garden-facets.obj, .mtl  the same, balls as the flat triangles they are
+    garden-facets.obj, .mtl  the same, the glass and the iron ball coarser and as
+                             the flat triangles they are
     garden-plain.obj, .mtl   as garden, materials without the extensions:
                              names alone say what is glass and what a mirror
 
@@ -21,10 +22,6 @@ import bmesh
 import bpy
 
 HERE = pathlib.Path(__file__).resolve().parent
-
-# The balls whose facets the picture of garden-facets shows.
-SHINY = ("ball_glass", "ball_iron_mirror")
-
 
 def clear():
     """An empty Blender."""
@@ -182,11 +179,13 @@ def trees():
              divisions=3)
 
 
-def balls():
+def balls(divisions, smooth):
     glass = material("glass", (1, 1, 1), 0, specular=0.5, Transmission=1, IOR=1.5)
     iron = material("iron", (0.78, 0.76, 0.73), 0, 1, specular=0.76)
-    add("ball_glass", icosphere(0.85, 5), glass, (-2.45, -0.75, 0.06 + 0.85), True)
-    add("ball_iron_mirror", icosphere(1.05, 5), iron, (-0.15, 0.55, 0.06 + 1.05), True)
+    add("ball_glass", icosphere(0.85, divisions), glass,
+        (-2.45, -0.75, 0.06 + 0.85), smooth)
+    add("ball_iron_mirror", icosphere(1.05, divisions), iron,
+        (-0.15, 0.55, 0.06 + 1.05), smooth)
     row = (("gold", (1.0, 0.74, 0.32), 0.9, 0.25),
            ("copper", (0.93, 0.46, 0.32), 0.9, 0.6),
            ("lacquer", (0.45, 0.02, 0.02), 0.05, 0.25),
@@ -199,19 +198,21 @@ def balls():
                      specular=0.7 if metallic > 0.5 else 0.04 if roughness < 1 else 0), at, True)
 
 
+def garden(divisions, smooth):
+    clear()
+    ground()
+    masonry()
+    trees()
+    balls(divisions, smooth)
+
+
 def export(name, extensions):
     bpy.ops.wm.obj_export(filepath=str(HERE / (name + ".obj")), export_uv=False,
                           export_pbr_extensions=extensions, path_mode="STRIP")
 
 
-clear()
-ground()
-masonry()
-trees()
-balls()
+garden(5, True)
 export("garden", True)
 export("garden-plain", False)
-for shiny in SHINY:
-    for face in bpy.data.objects[shiny].data.polygons:
-        face.use_smooth = False
+garden(4, False)
 export("garden-facets", True)
