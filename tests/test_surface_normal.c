@@ -429,7 +429,7 @@ static void bumps_tilt_the_normal(void **state) {
 }
 
 // A normal map that says (0, 0, 1) changes nothing; red leans along +u, green
-// along +v; a frameless triangle is left alone.
+// along +v, also where u is mirrored; a frameless triangle is left alone.
 static void normal_maps_lean_along_uv(void **state) {
   (void)state;
   rng r = rng_of(8, 19, 0);
@@ -453,6 +453,11 @@ static void normal_maps_lean_along_uv(void **state) {
     vec3 want = vec3_scale(u, lean.x);
     want = vec3_mad(vec3_mad(want, lean.y, v), lean.z, up);
     vec3 got = sheet_normal(&s, &r);
+    assert_true(vec3_length(vec3_sub(got, want)) < 1e-5f);
+    for (int k = 0; k < 4; k++)
+      s.uv[k].x = 1 - s.uv[k].x;  // mirrored
+    want = vec3_mad(want, -2 * lean.x, u);
+    got = sheet_normal(&s, &r);
     assert_true(vec3_length(vec3_sub(got, want)) < 1e-5f);
     for (int k = 0; k < 4; k++)
       s.uv[k] = (vec2){0.5f, 0.5f};
