@@ -24,8 +24,9 @@ def near(a, b, tolerance):
     return abs(a - b) <= tolerance * max(abs(a), abs(b)) + 1e-9
 
 
-def problems(name, want):
-    """What facet says differently about one file."""
+def problems(name, want, no_area):
+    """What facet says differently about one file.  Polygons that cross
+    themselves or leave their plane have no area to be right about."""
     run = subprocess.run([facet, "info", "--json", os.path.join(assets, name)], capture_output=True, timeout=60)
     said = run.stderr.decode("latin-1")
     if run.returncode not in (0, 3):
@@ -41,7 +42,7 @@ def problems(name, want):
     bad = [f"{k} {got[k]}, not {want[k]}" for k in ("positions", "normals", "texcoords", "faces", "triangles", "objects", "groups")
            if got[k] != want[k]]
     low, high = want["area"]["min"], want["area"]["max"]
-    if not low * (1 - 1e-6) - 1e-12 <= got["area"] <= high * (1 + 1e-6) + 1e-12:
+    if not no_area and not low * (1 - 1e-6) - 1e-12 <= got["area"] <= high * (1 + 1e-6) + 1e-12:
         bad.append(f"area {got['area']}, not {low} to {high}")
     for a, b in zip(sum(got["bbox"] or [], []), sum(want["bbox"] or [], [])):
         if not near(a, b, 1e-6):
@@ -62,7 +63,7 @@ def problems(name, want):
 
 
 for n, (name, row) in enumerate(sorted(files.items()), 1):
-    bad = problems(name, row["expect"])
+    bad = problems(name, row["expect"], "ambiguous" in row)
     print(f"not ok {n} - {name}" if bad else f"ok {n} - {name}")
     for line in bad:
         print("# " + line.strip())

@@ -33,7 +33,7 @@ flags, closest = hits("closest.hits")
 assert flags == 0
 assert closest[0][0] == 5 and closest[0][1] in (0, 1)
 assert closest[1] == (9, -1)
-assert closest[2][1] == 2 and abs(closest[2][0] - 8.5) < 1e-5
+assert closest[2][1] == 2 and abs(closest[2][0] - 9) < 1e-5
 assert closest[3] == (4, -1)
 flags, any_hit = hits("any.hits")
 assert flags == 1 and [p for _, p in any_hit] == [0, -1, 0, -1] and any_hit[1][0] == 9 and math.isinf(any_hit[0][0])
