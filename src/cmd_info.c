@@ -68,9 +68,9 @@ static bool read_picture_facts(picture_facts *f, const char *path, arena *mem,
 
 static void json_floats(json *j, const char *key, vec3 v) {
   json_open(j, key, '[');
-  json_number(j, NULL, (double)v.x);
-  json_number(j, NULL, (double)v.y);
-  json_number(j, NULL, (double)v.z);
+  json_float(j, NULL, v.x);
+  json_float(j, NULL, v.y);
+  json_float(j, NULL, v.z);
   json_close(j, '[');
 }
 

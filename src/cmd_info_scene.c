@@ -76,9 +76,9 @@ static const char *model_name(const material *m) {
 
 static void json_triple(json *j, const char *key, vec3 v) {
   json_open(j, key, '[');
-  json_number(j, NULL, (double)v.x);
-  json_number(j, NULL, (double)v.y);
-  json_number(j, NULL, (double)v.z);
+  json_float(j, NULL, v.x);
+  json_float(j, NULL, v.y);
+  json_float(j, NULL, v.z);
   json_close(j, '[');
 }
 
@@ -115,14 +115,14 @@ static void json_parameters(json *j, const material *m) {
     json_triple(j, "kd", m->kd);
   if (m->kind == MATERIAL_BLINN_PHONG || m->kind == MATERIAL_MIRROR)
     json_triple(j, "ks", m->ks);
-  if (m->kind == MATERIAL_BLINN_PHONG) json_number(j, "ns", (double)m->ns);
-  if (m->kind == MATERIAL_GLASS) json_number(j, "ni", (double)m->ni);
+  if (m->kind == MATERIAL_BLINN_PHONG) json_float(j, "ns", m->ns);
+  if (m->kind == MATERIAL_GLASS) json_float(j, "ni", m->ni);
   if (m->kind == MATERIAL_METAL_ROUGH) {
-    json_number(j, "roughness", (double)m->roughness);
-    json_number(j, "metallic", (double)m->metallic);
+    json_float(j, "roughness", m->roughness);
+    json_float(j, "metallic", m->metallic);
     json_triple(j, "tf", m->tf);
   }
-  json_number(j, "d", (double)m->d);
+  json_float(j, "d", m->d);
   json_triple(j, "ke", m->ke);
 }
 
@@ -155,7 +155,7 @@ static void json_camera(json *j, const camera *c) {
   json_triple(j, "eye", c->eye);
   json_triple(j, "target", c->target);
   json_triple(j, "up", c->up);
-  json_number(j, "fov", (double)c->fov_deg);
+  json_float(j, "fov", c->fov_deg);
   json_close(j, '{');
 }
 

@@ -2,6 +2,8 @@
 
 #include "json.h"
 
+#include "number.h"
+
 #include <math.h>
 #include <stddef.h>
 
@@ -66,8 +68,20 @@ void json_text(json *j, const char *key, const char *text) {
 void json_number(json *j, const char *key, double value) {
   json_lead(j, key);
   if (!isfinite(value)) fputs("null", j->out);
-  // 12 digits: all of a float, and more than any measurement has.
+  // 12 digits: more than any measurement has.
   if (isfinite(value)) fprintf(j->out, "%.12g", value);
+}
+
+void json_float(json *j, const char *key, float value) {
+  char text[32] = "null";
+  float back = NAN;
+  for (int digits = 6; isfinite(value) && back != value; digits++) {
+    int n = snprintf(text, sizeof text, "%.*g", digits, (double)value);
+    // Nine digits always do.
+    if (number_float(text, text + n, &back) == NULL || digits >= 9) break;
+  }
+  json_lead(j, key);
+  fputs(text, j->out);
 }
 
 void json_count(json *j, const char *key, unsigned long long value) {
