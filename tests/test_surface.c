@@ -42,10 +42,33 @@ static hit random_hit(rng *r, uint32_t n) {
   return (hit){.t = 1, .b1 = root * (1 - b), .b2 = root * b, .triangle = t};
 }
 
-// The component of sum b_i p_i, free of rounding for all that matters here.
+// Long double holds sums and products of floats with bits to spare.
+typedef struct wide {
+  long double x, y, z;
+} wide;
+
+static wide wide_of(vec3 a) {
+  return (wide){(long double)a.x, (long double)a.y, (long double)a.z};
+}
+
+static wide wide_sub(wide a, wide b) {
+  return (wide){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static wide wide_cross(wide a, wide b) {
+  return (wide){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z,
+                a.x * b.y - a.y * b.x};
+}
+
+static long double wide_dot(wide a, wide b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+// A coordinate of the point with the weights of h.
 static long double blend(const float p[3], const hit *h) {
-  long double b1 = h->b1, b2 = h->b2;
-  return (1 - b1 - b2) * p[0] + b1 * p[1] + b2 * p[2];
+  long double b1 = (long double)h->b1, b2 = (long double)h->b2;
+  return (1 - b1 - b2) * (long double)p[0] + b1 * (long double)p[1] +
+         b2 * (long double)p[2];
 }
 
 static void check_bound(float p, float bound, const float c[3], const hit *h) {
@@ -84,20 +107,12 @@ static void point_error_is_a_bound(void **state) {
 
 // The angle between ng and the exact normal, in radians, as a sine.
 static double normal_error(const vec3 p[3], vec3 ng) {
-  long double ax = (long double)p[1].x - p[0].x,
-              bx = (long double)p[2].x - p[0].x;
-  long double ay = (long double)p[1].y - p[0].y,
-              by = (long double)p[2].y - p[0].y;
-  long double az = (long double)p[1].z - p[0].z,
-              bz = (long double)p[2].z - p[0].z;
-  long double x = ay * bz - az * by, y = az * bx - ax * bz,
-              z = ax * by - ay * bx;
-  long double l = sqrtl(x * x + y * y + z * z);
-  long double nx = ng.x, ny = ng.y, nz = ng.z;
-  long double cx = (y * nz - z * ny) / l, cy = (z * nx - x * nz) / l;
-  long double cz = (x * ny - y * nx) / l;
-  assert_true(x * nx + y * ny + z * nz > 0);
-  return (double)sqrtl(cx * cx + cy * cy + cz * cz);
+  wide o = wide_of(p[0]), n = wide_of(ng);
+  wide exact =
+      wide_cross(wide_sub(wide_of(p[1]), o), wide_sub(wide_of(p[2]), o));
+  assert_true(wide_dot(exact, n) > 0);
+  wide c = wide_cross(exact, n);
+  return (double)sqrtl(wide_dot(c, c) / wide_dot(exact, exact));
 }
 
 // ng is the normal by the winding, unit to float precision, for needles 1e7

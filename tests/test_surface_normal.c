@@ -52,7 +52,7 @@ static double below_facet(int level, bool bent) {
   scene w = solid_scene(&s, true);
   bvh tree = solid_tree(&s, &mem);
   long seen = 0, below = 0;
-  const int side = getenv("FACET_QUICK") != NULL ? 90 : 500;
+  const int side = getenv("FACET_QUICK") != NULL ? 250 : 500;
   for (int i = 0; i < side * side; i++) {
     float x = ((float)(i % side) + 0.5f) / (float)side;
     float y = ((float)(i / side) + 0.5f) / (float)side;
