@@ -4,11 +4,11 @@
 
 #include "render.h"
 
+#include "clock.h"
 #include "film.h"
 #include "matter.h"
 
 #include <stdatomic.h>
-#include <time.h>
 
 // Pixels a side of a tile, the item of work of a thread.
 enum { TILE = 16 };
@@ -50,12 +50,6 @@ typedef struct job {
   tally *tallies;
   int workers;
 } job;
-
-static double seconds_now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 // What the first surface on a ray looks like by itself.
 typedef struct first_hit {
@@ -168,7 +162,7 @@ static void render_tile(void *context, size_t item, int worker) {
         add_sample(j, x, y, s, &j->tallies[worker]);
   atomic_fetch_add(&j->done, 1);
   if (worker != 0 || j->set->progress == NULL) return;
-  double now = seconds_now();
+  double now = clock_seconds();
   if (now - j->last_progress >= PROGRESS_SECONDS) tell_progress(j, now);
 }
 
@@ -184,7 +178,7 @@ static int pass_samples(const job *j) {
   if (done == 0) return 1;
   if (s->stop != NULL && *s->stop) return 0;
   if (s->error > 0 && done >= ERROR_MIN_SPP && j->error <= s->error) return 0;
-  double now = seconds_now(), each = (now - j->start) / done;
+  double now = clock_seconds(), each = (now - j->start) / done;
   double room = PASS_SECONDS;
   if (s->deadline > 0) {
     if (now + each > s->deadline) return 0;
@@ -264,7 +258,7 @@ static void hand_snapshot(const job *j) {
   *s->snapshot = 0;
   arena once = {0};
   render_result so_far = {.spp = j->end, .error = j->error};
-  so_far.seconds = seconds_now() - j->start;
+  so_far.seconds = clock_seconds() - j->start;
   make_images(&so_far, j, &once);
   s->on_snapshot(s->snapshot_context, &so_far);
   arena_free(&once);
@@ -279,14 +273,14 @@ static void render_passes(job *j, pool *threads) {
     j->error = film_error(&j->color);
     hand_snapshot(j);
   }
-  if (j->set->progress != NULL) tell_progress(j, seconds_now());
+  if (j->set->progress != NULL) tell_progress(j, clock_seconds());
 }
 
 void render_run(render_result *out, const path_world *world,
                 const camera_view *view, const render_settings *settings,
                 arena *mem, pool *threads) {
   const render_settings *s = settings;
-  job j = {.world = world, .view = view, .set = s, .start = seconds_now()};
+  job j = {.world = world, .view = view, .set = s, .start = clock_seconds()};
   bool crop = s->x1 > 0;
   j.x0 = crop ? s->x0 : 0, j.y0 = crop ? s->y0 : 0;
   j.width = crop ? s->x1 - s->x0 : s->width;
@@ -305,5 +299,5 @@ void render_run(render_result *out, const path_world *world,
   sum_tallies(out, &j);
   make_images(out, &j, mem);
   arena_free(&scratch);
-  out->seconds = seconds_now() - j.start;
+  out->seconds = clock_seconds() - j.start;
 }
