@@ -214,9 +214,10 @@ enum { SCENE_KEYWORD_COUNT = sizeof SCENE_KEYWORDS / sizeof *SCENE_KEYWORDS };
 // MTL statements that facet does not use, so that a block pasted from a library
 // is not refused.
 static const char *const UNUSED_MTL_KEYS[] = {
-    "Ps",   "Pc",     "Pcr",       "aniso",    "anisor", "sharpness",
-    "disp", "map_Ps", "map_Pc",    "map_Pcr",  "decal",  "refl",
-    "Pcf",  "map_Tf", "map_aniso", "map_refl", "map_aat"};
+    "Ps",   "Pc",     "Pcr",       "aniso",    "anisor",  "sharpness",
+    "disp", "map_Ps", "map_Pc",    "map_Pcr",  "decal",   "refl",
+    "Pcf",  "map_Tf", "map_aniso", "map_refl", "map_aat",
+};
 
 // Whether word is one of them.
 static bool is_unused_mtl_key(span word) {

@@ -267,6 +267,7 @@ static void draw_fov(output *o) {
     vec3 eye = {0, 0.22f * distance, distance};
     camera c = {NULL, eye, {0, 0, 0.5f}, {0, 1, 0}, angles[k]};
     camera_view v = view_of(c, WIDTH, HEIGHT);
+    printf("fov %.0f: from %.1f units\n", (double)angles[k], (double)distance);
     for (int i = 0; i < WIDTH * HEIGHT; i++)
       *pane_pixel(im, k, WIDTH, i % WIDTH, i / WIDTH) =
           cubes_at(&m, &v, i % WIDTH, i / WIDTH);
