@@ -39,12 +39,13 @@ CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah bvh_part bvh_build rays rays_m
 CHAPTER_8 := $(CHAPTER_4) surface surface_ray surface_normal
 CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_naive film render
 LIBRARY   := $(CHAPTER_9)
-CHAPTERS  := 1 2 3 4 8 9
+CHAPTERS  := 1 2 3 4 8 9 17
 # The command line, the only floor that prints and exits.
 COMMAND   := json tonemap progress option_table option cmd_shared cmd_signals \
              cmd_output cmd_render cmd_info_scene cmd_info cmd_compare cmd_bench \
              cmd_help main
 MODULES   := $(LIBRARY) $(COMMAND)
+CHAPTER_17 := $(filter-out main,$(MODULES))
 
 # Objects of those modules that have a .c; the folder of chapter N.
 obj  = $(patsubst src/%.c,$(B)/src/%.o,$(wildcard $(1:%=src/%.c)))
@@ -132,6 +133,8 @@ install: all
 	install -D build/facet $(DESTDIR)$(PREFIX)/bin/facet
 	install -d $(DESTDIR)$(PREFIX)/share/facet/scenes
 	cp scenes/* $(DESTDIR)$(PREFIX)/share/facet/scenes/
+	install -d $(DESTDIR)$(PREFIX)/share/man/man1
+	build/facet help --man >$(DESTDIR)$(PREFIX)/share/man/man1/facet.1
 
 clean:
 	rm -rf build

@@ -3,6 +3,7 @@
 #include "cmd_shared.h"
 
 #include "bvh.h"
+#include "clock.h"
 #include "normals.h"
 #include "obj.h"
 #include "rays.h"
@@ -33,15 +34,15 @@ static bool load_once(load_run *out, const options *o, pool *threads,
   arena mem = {0};
   mesh m;
   obj_times times;
-  double start = cmd_seconds();
+  double start = clock_seconds();
   if (!obj_read(&m, o->operands[0], &mem, threads, NULL, &times, err)) {
     arena_free(&mem);
     return false;
   }
-  double before = cmd_seconds();
+  double before = clock_seconds();
   normals_generate(&m, (normals_mode)o->value[OPT_NORMALS].words,
                    o->value[OPT_CREASE].number[0], &mem, threads);
-  double end = cmd_seconds();
+  double end = clock_seconds();
   *out = (load_run){{times.read_parse, times.merge, times.triangulate,
                      end - before, end - start},
                     times.bytes,

@@ -5,6 +5,7 @@
 #include "cmd_signals.h"
 
 #include "bvh.h"
+#include "clock.h"
 #include "progress.h"
 #include "text.h"
 
@@ -165,9 +166,9 @@ static int choose_camera(render_job *j) {
 static int write_picture(render_job *j) {
   error err;
   arena once = {0};
-  double start = cmd_seconds();
+  double start = clock_seconds();
   bool ok = output_write(&j->out, &j->result, &once, &err);
-  j->write_seconds = cmd_seconds() - start;
+  j->write_seconds = clock_seconds() - start;
   arena_free(&once);
   return ok ? EXIT_DONE : cmd_fail(j->o, EXIT_OUTPUT, "%s", err.text);
 }
@@ -235,14 +236,14 @@ static void print_summary(const render_job *j) {
   fprintf(stderr, "%s: %dx%d, %d spp, %.2f s, %zu triangles, %s%s\n",
           strcmp(j->out.path, "-") == 0 ? "standard output" : j->out.path,
           r->color.width, r->color.height, r->spp,
-          cmd_seconds() - j->o->started, j->scene.mesh.triangle_count, warnings,
-          r->stopped ? "; stopped early" : "");
+          clock_seconds() - j->o->started, j->scene.mesh.triangle_count,
+          warnings, r->stopped ? "; stopped early" : "");
 }
 
 // The seconds of every stage.
 static void json_seconds(json *j, const render_job *job) {
   json_open(j, "seconds", '{');
-  json_number(j, "total", cmd_seconds() - job->o->started);
+  json_number(j, "total", clock_seconds() - job->o->started);
   json_number(j, "load", job->scene.seconds_load);
   json_number(j, "textures", job->scene.seconds_textures);
   json_number(j, "build", job->tree.seconds);

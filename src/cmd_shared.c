@@ -9,7 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <time.h>
 
 // Whether stderr shows colours: a terminal, and nobody objects.  Source:
 // no-color.org: any value of NO_COLOR but the empty one.
@@ -58,12 +57,6 @@ void cmd_json_warnings(json *j, const report *r) {
   for (const report_line *l = r->first; l != NULL; l = l->next)
     if (l->kind == REPORT_WARNING) json_text(j, NULL, l->text);
   json_close(j, '[');
-}
-
-double cmd_seconds(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 int cmd_threads(const options *o) {

@@ -1,4 +1,4 @@
-// cmd_shared.h — what all commands do alike: fail, warn, tell the time.
+// cmd_shared.h — what all commands do alike: fail, warn, name files.
 
 #ifndef CMD_SHARED_H
 #define CMD_SHARED_H
@@ -28,9 +28,6 @@ void cmd_remarks(const options *o, const report *r);
 
 // The member "warnings": all remarks of that kind.
 void cmd_json_warnings(json *j, const report *r);
-
-// CLOCK_MONOTONIC, in seconds.
-double cmd_seconds(void);
 
 // The threads that -j asks for, or the default.
 int cmd_threads(const options *o);

@@ -3,6 +3,8 @@
 
 #include "cmd_shared.h"
 
+#include "clock.h"
+
 #include <signal.h>
 #include <string.h>
 
@@ -70,7 +72,7 @@ static bool run_bare(int argc, char **argv, int *code) {
 }
 
 int main(int argc, char **argv) {
-  double started = cmd_seconds();
+  double started = clock_seconds();
   // A closed pipe is an error of writing, with exit status 4, not a death.
   signal(SIGPIPE, SIG_IGN);
   int code;

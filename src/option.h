@@ -23,7 +23,7 @@ typedef struct options {
   option_value value[OPTION_COUNT];
   const char **operands;
   int operand_count;
-  double started;  // CLOCK_MONOTONIC seconds, set by main
+  double started;  // clock_seconds when main began
 } options;
 
 // Parse argv of main; operands needs room for argc pointers and lies in
