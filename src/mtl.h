@@ -75,6 +75,11 @@ mtl_material mtl_default(const char *name);
 bool mtl_read(mtl_library *lib, const char *path, arena *mem, report *r,
               error *err);
 
+// The same for the text of a library; path is for messages and for finding its
+// textures.
+bool mtl_read_text(mtl_library *lib, span text, const char *path, arena *mem,
+                   report *r, error *err);
+
 // Read every library that m names, looked for beside the OBJ at obj_path (its
 // path, for messages too): the whole rest of a mtllib line as one name first,
 // then each of its words.  One that is not there is a warning.

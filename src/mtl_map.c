@@ -59,10 +59,11 @@ static int map_numbers(span *rest, int most, float *x) {
   int n = 0;
   while (n < most) {
     span after = *rest;
-    span word = text_word(&after);
-    if (!span_float(word, &x[n]) || text_trim(after).length == 0) break;
+    float value;
+    if (!span_float(text_word(&after), &value)) break;
+    if (text_trim(after).length == 0) break;
     *rest = after;
-    n++;
+    x[n++] = value;
   }
   return n;
 }

@@ -82,23 +82,28 @@ static void check_material(const mtl_material *m, report *r) {
                 m->file, line, m->name);
 }
 
-bool mtl_read(mtl_library *lib, const char *path, arena *mem, report *r,
-              error *err) {
-  arena own = {0};
-  span text;
-  bool ok = text_read(&text, path, &own, err);
+bool mtl_read_text(mtl_library *lib, span text, const char *path, arena *mem,
+                   report *r, error *err) {
   mtl_reading m = {.lib = lib, .mem = mem, .r = r, .err = err};
   m.file = arena_text(mem, path, strlen(path));
   m.folder = path_folder(mem, path);
   size_t before = lib->count;
-  if (ok) {
-    text_lines lines = text_lines_of(text, 1);
-    for (span line; ok && text_next_line(&lines, &line);)
-      ok = read_line(&m, line, lines.line);
-    text_lines_free(&lines);
-  }
+  bool ok = true;
+  text_lines lines = text_lines_of(text, 1);
+  for (span line; ok && text_next_line(&lines, &line);)
+    ok = read_line(&m, line, lines.line);
+  text_lines_free(&lines);
   for (size_t i = before; ok && i < lib->count; i++)
     check_material(&lib->materials[i], r);
+  return ok;
+}
+
+bool mtl_read(mtl_library *lib, const char *path, arena *mem, report *r,
+              error *err) {
+  arena own = {0};
+  span text;
+  bool ok = text_read(&text, path, &own, err) &&
+            mtl_read_text(lib, text, path, mem, r, err);
   arena_free(&own);
   return ok;
 }
