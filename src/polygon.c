@@ -168,16 +168,8 @@ static double turn_at(const clipper *c, uint32_t i) {
   return turn(c->p[c->prev[i]], c->p[i], c->p[c->next[i]]);
 }
 
-static bool same_place(flat a, flat b) {
-  return a.x == b.x && a.y == b.y;
-}
-
-// Whether q keeps the triangle a b c from being an ear.  A corner in the place
-// of one of the triangle's own does not: outlines with holes are sewn up by
-// edges that run twice.
+// Whether q keeps the triangle from being an ear.
 static bool blocks(flat q, const flat t[3], ear_rule rule) {
-  if (same_place(q, t[0]) || same_place(q, t[1]) || same_place(q, t[2]))
-    return false;
   double u = turn(t[0], t[1], q), v = turn(t[1], t[2], q);
   double w = turn(t[2], t[0], q);
   if (rule == EAR_STRICT) return u >= 0 && v >= 0 && w >= 0;
@@ -335,8 +327,8 @@ bool polygon_triangulate(const vec3 *p, size_t n, uint32_t *out,
     if (fabs(normal[i]) > fabs(normal[axis])) axis = i;
   flat few[8];
   flat *q = n <= 8 ? few : ARENA_NEW(scratch, flat, n);
-  double square = normal[0] * normal[0] + normal[1] * normal[1] +
-                  normal[2] * normal[2];
+  double square =
+      normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
   double area = square / fabs(normal[axis]);  // of the outline as flattened
   bool solid = area > 0 && isfinite(area);
   for (size_t i = 0; i < n; i++)

@@ -113,6 +113,22 @@ static void groups_meet_at_hard_edges(void **state) {
   }
 }
 
+// Faces of a group belong together also when those of another lie between
+// them in the file: a pyramid whose sides are in groups 1, 2, 1, 2.
+static void groups_may_alternate(void **state) {
+  (void)state;
+  arena mem = {0};
+  mesh m = read_text("v 0 1 0\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv -1 0 1\n"
+                     "s 1\nf 1 2 3\ns 2\nf 1 3 4\ns 1\nf 1 4 5\ns 2\nf 1 5 2\n",
+                     &mem);
+  normals_generate(&m, NORMALS_AUTO, 180, &mem, NULL);
+  for (size_t t = 0; t < 4; t++)
+    assert_true(is_near(normal_at(&m, 3 * t), (vec3){0, 1, 0}));
+  assert_int_equal(m.normal_index[0], m.normal_index[6]);
+  assert_int_equal(m.normal_index[3], m.normal_index[9]);
+  arena_free(&mem);
+}
+
 // Normals of the file stay, faces without get theirs by group, and a normal
 // without direction counts as none.
 static void file_normals_stay(void **state) {
@@ -211,6 +227,7 @@ int main(void) {
       cmocka_unit_test(cube_normals_are_diagonals),
       cmocka_unit_test(creases_and_flat_faces),
       cmocka_unit_test(groups_meet_at_hard_edges),
+      cmocka_unit_test(groups_may_alternate),
       cmocka_unit_test(file_normals_stay),
       cmocka_unit_test(sphere_normals_are_radii),
       cmocka_unit_test(threads_do_not_show),
