@@ -18,8 +18,14 @@ typedef struct bvh_node {
 } bvh_node;
 
 // How nodes are split: where the surface area heuristic expects the least
-// work, or through the middle of the longest side.
-typedef enum bvh_method { BVH_SAH, BVH_MEDIAN } bvh_method;
+// work, asking at up to 31, 15 or 7 places an axis; or through the middle of
+// the longest side.
+typedef enum bvh_method {
+  BVH_SAH,
+  BVH_MEDIAN,
+  BVH_SAH_16,
+  BVH_SAH_8
+} bvh_method;
 
 // No leaf lies deeper, whatever the input; the root has depth 0.  No leaf
 // holds more triangles.

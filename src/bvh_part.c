@@ -14,8 +14,11 @@ static int halvings(uint32_t n) {
 }
 
 // Slices for a node of n triangles: few triangles need few.
-static int bins_for(uint32_t n) {
-  return n < 8 * (SAH_MAX_BINS - 4) ? 4 + (int)(n / 8) : SAH_MAX_BINS;
+static int bins_for(uint32_t n, bvh_method method) {
+  if (method == BVH_MEDIAN) return 2;
+  int most = method == BVH_SAH ? SAH_MAX_BINS : method == BVH_SAH_16 ? 16 : 8;
+  int bins = n < 8 * SAH_MAX_BINS ? 4 + (int)(n / 8) : SAH_MAX_BINS;
+  return bins < most ? bins : most;
 }
 
 // Every part keeps depth + halvings <= BVH_MAX_DEPTH: cuts may be as uneven as
@@ -24,7 +27,7 @@ sah_grid bvh_part_grid(const bvh_part *p, bvh_method method) {
   uint32_t n = p->end - p->begin;
   sah_grid none = {0};
   if (n < 2 || p->depth + halvings(n) >= BVH_MAX_DEPTH) return none;
-  sah_grid g = sah_grid_of(&p->centres, method == BVH_SAH ? bins_for(n) : 2);
+  sah_grid g = sah_grid_of(&p->centres, bins_for(n, method));
   bool flat = g.scale[0] == 0 && g.scale[1] == 0 && g.scale[2] == 0;
   return flat ? none : g;
 }

@@ -363,9 +363,9 @@ static void trees_are_whole(void **unused) {
   arena mem = {0};
   shape all[SHAPES];
   shapes_all(all, &mem);
-  for (int i = 0; i < 2 * SHAPES; i++) {
+  for (int i = 0; i < 4 * SHAPES; i++) {
     grove g;
-    grove_plant(&g, all[i / 2], &mem, i % 2 ? BVH_MEDIAN : BVH_SAH);
+    grove_plant(&g, all[i / 4], &mem, (bvh_method)(i % 4));
     check_tree(&g.b);
     if (strcmp(g.s.name, "broken") == 0)
       assert_int_equal(g.b.dropped, 100 + 50 + 50);
@@ -529,7 +529,8 @@ static void nan_cuts_nothing(void **unused) {
 
 // What triangle_hit accepts lies in its box as slab_cut sees it, whatever the
 // sizes: random triangles of all shapes around a ray, their edges and corners
-// within rounding of it.
+// within rounding of it; and needles that pass beside its origin, far longer
+// than they are away.  There the shear errs by more than the needle is wide.
 static void slabs_are_conservative(void **unused) {
   (void)unused;
   uint64_t state = 31;
@@ -545,6 +546,12 @@ static void slabs_are_conservative(void **unused) {
       p[k] = vec3_mad(q, e[3], shape_point(&state));
     // Every other one with an edge or corner through the ray.
     if (i % 2) p[1] = vec3_mad(q, i % 4 == 1 ? -1.0f : 0.0f, vec3_sub(p[0], q));
+    for (int k = 0; k < 3 && i % 8 == 3; k++) {
+      vec3 beside = vec3_scale(vec3_mad(vec3_all(0.3f), 0.1f, q), 1e-5f);
+      vec3 wide = vec3_mad(beside, 1e-6f, shape_point(&state));
+      wide.z = 1000 * shape_random(&state) * (k == 0 ? -1.0f : 1.0f);
+      p[k] = vec3_add(o = vec3_all(0), wide);
+    }
     ray r = {o, ray_flush(d), 0, INFINITY};
     ray_shear shear = ray_shear_of(r.d);
     hit h;
