@@ -11,12 +11,10 @@ static float textured_number(float number, const texture_map *map, vec2 uv) {
   return map->image == NULL ? number : texture_number(map, uv);
 }
 
-// What a surface without any material is: grey.
-static const material GREY = {
-    .kind = MATERIAL_BLINN_PHONG, .kd = {0.8f, 0.8f, 0.8f}, .d = 1};
-
+// A surface without any material is grey.
 static const material *material_at(const surface *s) {
-  return s->material == NULL ? &GREY : s->material;
+  static const material grey = {.kd = {0.8f, 0.8f, 0.8f}, .d = 1};
+  return s->material == NULL ? &grey : s->material;
 }
 
 static vec3 base_color(const surface *s) {
