@@ -70,13 +70,14 @@ define chapter_rules
 $(B)/chapter-$(1): $(B)/chapters/$(call slug,$(1))/figures.o \
                    $(call obj,$(CHAPTER_$(1)))
 	$$(CC) $$(FLAGS) $$(CFLAGS) $$^ $$(LIBS) -o $$@
-chapter-$(1): $(B)/chapter-$(1) build/facet
+draw-$(1): $(B)/chapter-$(1)
+	@rm -rf build/figures/$(call slug,$(1))
 	@mkdir -p build/figures/$(call slug,$(1))
 	$(B)/chapter-$(1) build/figures/$(call slug,$(1))
+chapter-$(1): draw-$(1) build/facet
 	@tests/figures.sh $(call slug,$(1))
-bless-$(1): $(B)/chapter-$(1)
-	@mkdir -p build/figures/$(call slug,$(1)) chapters/$(call slug,$(1))/images
-	$(B)/chapter-$(1) build/figures/$(call slug,$(1))
+bless-$(1): draw-$(1)
+	@mkdir -p chapters/$(call slug,$(1))/images
 	cp build/figures/$(call slug,$(1))/*.png chapters/$(call slug,$(1))/images/
 endef
 $(foreach n,$(CHAPTERS),$(eval $(call chapter_rules,$(n))))
@@ -132,7 +133,7 @@ format:
 install: all
 	install -D build/facet $(DESTDIR)$(PREFIX)/bin/facet
 	install -d $(DESTDIR)$(PREFIX)/share/facet/scenes
-	cp scenes/* $(DESTDIR)$(PREFIX)/share/facet/scenes/
+	cp scenes/*.* $(DESTDIR)$(PREFIX)/share/facet/scenes/
 	install -d $(DESTDIR)$(PREFIX)/share/man/man1
 	build/facet help --man >$(DESTDIR)$(PREFIX)/share/man/man1/facet.1
 
@@ -140,5 +141,5 @@ clean:
 	rm -rf build
 
 .PHONY: all figures weave unit build-tests test bench book format install clean \
-        $(CHAPTERS:%=chapter-%) $(CHAPTERS:%=bless-%)
+        $(foreach n,$(CHAPTERS),draw-$(n) chapter-$(n) bless-$(n))
 -include $(shell find build -name '*.d' 2>/dev/null)
