@@ -1,5 +1,5 @@
 // surface_ray.c — how a ray leaves a surface: from a float on the right side
-// of the facet, no farther from it than the error of the point.
+// of the facet, a few errors of the point away from it and from its edges.
 
 #include "surface.h"
 
