@@ -5,16 +5,16 @@
 #include "num.h"
 #include "picture.h"
 
-// The built-in sky, linear radiance: blue above, pale at the horizon, dark
+// The built-in sky, linear radiance: blue above, pale at the horizon, dull
 // earth below.
 static const vec3 SKY_ZENITH = {0.16f, 0.30f, 0.60f};
 static const vec3 SKY_HORIZON = {0.62f, 0.68f, 0.74f};
-static const vec3 SKY_GROUND = {0.11f, 0.10f, 0.09f};
+static const vec3 SKY_GROUND = {0.19f, 0.18f, 0.17f};
 
 // Its sun: radiance at the centre, and the unit direction towards it: high, to
 // the left and in the back of a camera that looks along -Z, so that it lights
 // the sides that the camera sees.
-static const vec3 SKY_SUN = {17.0f, 15.5f, 13.0f};
+static const vec3 SKY_SUN = {4.6f, 4.2f, 3.5f};
 static const vec3 SKY_SUN_AT = {-2.0f / 3, 2.0f / 3, 1.0f / 3};
 
 // x^(2^n).
@@ -30,7 +30,7 @@ static vec3 sky_radiance(vec3 d) {
   vec3 far = h >= 0 ? SKY_ZENITH : SKY_GROUND;
   float haze = h >= 0 ? squared_times(1 - h, 2) : squared_times(1 + h, 4);
   float c = fminf(fmaxf(vec3_dot(d, SKY_SUN_AT), 0), 1);
-  return vec3_mad(vec3_lerp(far, SKY_HORIZON, haze), squared_times(c, 6),
+  return vec3_mad(vec3_lerp(far, SKY_HORIZON, haze), squared_times(c, 4),
                   SKY_SUN);
 }
 
