@@ -17,7 +17,7 @@ WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wdouble-promotion \
            -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
 # No -ffast-math and no contraction: one source, one image, on every machine.
 FLAGS   := -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) -ffp-contract=off -iquote src
-LIBS    := -lpng -ljpeg -lm -lpthread
+LIBS    := -lpng -ljpeg -lm -lpthread -ldl
 # make SAN=address,undefined puts a second build beside the first.
 comma   := ,
 B       := build/$(or $(subst $(comma),-,$(SAN)),$(VARIANT),release)
@@ -36,9 +36,13 @@ CHAPTER_2 := $(CHAPTER_1) cpu_quota pool digits number text path_find polygon \
 CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material \
              statement scene_file mesh_join material_list scene scene_text
 CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah bvh_part bvh_build rays rays_make
-CHAPTER_8 := $(CHAPTER_4) surface surface_ray surface_normal
+CHAPTER_5 := $(CHAPTER_4) gl glsl raster
+CHAPTER_6 := $(CHAPTER_5) microfacet dfg bsdf_rough
+CHAPTER_7 := $(CHAPTER_6) ibl raster_env
+CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
 CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_naive film render
-LIBRARY   := $(CHAPTER_9)
+CHAPTER_14 := $(CHAPTER_9) post view
+LIBRARY   := $(CHAPTER_14)
 CHAPTERS  := 1 2 3 4 8 9 17
 # The command line, the only floor that prints and exits.
 COMMAND   := json tonemap progress option_table option cmd_shared cmd_signals \
