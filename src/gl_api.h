@@ -1,0 +1,107 @@
+// gl_api.h — the OpenGL functions that facet calls, found at run time; with
+// what building shaders, textures and framebuffers takes.
+
+#ifndef GL_API_H
+#define GL_API_H
+
+#include "gl.h"
+
+#include <GL/glcorearb.h>
+
+// X(type of the pointer, name without gl), for each function.
+#define GL_FUNCTIONS(X) \
+  X(PFNGLACTIVETEXTUREPROC, ActiveTexture) \
+  X(PFNGLATTACHSHADERPROC, AttachShader) \
+  X(PFNGLBINDATTRIBLOCATIONPROC, BindAttribLocation) \
+  X(PFNGLBINDBUFFERPROC, BindBuffer) \
+  X(PFNGLBINDFRAMEBUFFERPROC, BindFramebuffer) \
+  X(PFNGLBINDRENDERBUFFERPROC, BindRenderbuffer) \
+  X(PFNGLBINDTEXTUREPROC, BindTexture) \
+  X(PFNGLBINDVERTEXARRAYPROC, BindVertexArray) \
+  X(PFNGLBLENDFUNCPROC, BlendFunc) \
+  X(PFNGLBLITFRAMEBUFFERPROC, BlitFramebuffer) \
+  X(PFNGLBUFFERDATAPROC, BufferData) \
+  X(PFNGLBUFFERSUBDATAPROC, BufferSubData) \
+  X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus) \
+  X(PFNGLCLEARPROC, Clear) \
+  X(PFNGLCLEARCOLORPROC, ClearColor) \
+  X(PFNGLCLEARDEPTHPROC, ClearDepth) \
+  X(PFNGLCOLORMASKPROC, ColorMask) \
+  X(PFNGLCOMPILESHADERPROC, CompileShader) \
+  X(PFNGLCREATEPROGRAMPROC, CreateProgram) \
+  X(PFNGLCREATESHADERPROC, CreateShader) \
+  X(PFNGLDELETEBUFFERSPROC, DeleteBuffers) \
+  X(PFNGLDELETEFRAMEBUFFERSPROC, DeleteFramebuffers) \
+  X(PFNGLDELETEPROGRAMPROC, DeleteProgram) \
+  X(PFNGLDELETERENDERBUFFERSPROC, DeleteRenderbuffers) \
+  X(PFNGLDELETESHADERPROC, DeleteShader) \
+  X(PFNGLDELETETEXTURESPROC, DeleteTextures) \
+  X(PFNGLDELETEVERTEXARRAYSPROC, DeleteVertexArrays) \
+  X(PFNGLDEPTHFUNCPROC, DepthFunc) \
+  X(PFNGLDEPTHMASKPROC, DepthMask) \
+  X(PFNGLDISABLEPROC, Disable) \
+  X(PFNGLDRAWARRAYSPROC, DrawArrays) \
+  X(PFNGLDRAWBUFFERPROC, DrawBuffer) \
+  X(PFNGLDRAWBUFFERSPROC, DrawBuffers) \
+  X(PFNGLDRAWELEMENTSPROC, DrawElements) \
+  X(PFNGLENABLEPROC, Enable) \
+  X(PFNGLENABLEVERTEXATTRIBARRAYPROC, EnableVertexAttribArray) \
+  X(PFNGLFINISHPROC, Finish) \
+  X(PFNGLFRAMEBUFFERRENDERBUFFERPROC, FramebufferRenderbuffer) \
+  X(PFNGLFRAMEBUFFERTEXTURE2DPROC, FramebufferTexture2D) \
+  X(PFNGLFRAMEBUFFERTEXTURELAYERPROC, FramebufferTextureLayer) \
+  X(PFNGLFRONTFACEPROC, FrontFace) \
+  X(PFNGLGENBUFFERSPROC, GenBuffers) \
+  X(PFNGLGENERATEMIPMAPPROC, GenerateMipmap) \
+  X(PFNGLGENFRAMEBUFFERSPROC, GenFramebuffers) \
+  X(PFNGLGENRENDERBUFFERSPROC, GenRenderbuffers) \
+  X(PFNGLGENTEXTURESPROC, GenTextures) \
+  X(PFNGLGENVERTEXARRAYSPROC, GenVertexArrays) \
+  X(PFNGLGETERRORPROC, GetError) \
+  X(PFNGLGETINTEGERVPROC, GetIntegerv) \
+  X(PFNGLGETPROGRAMINFOLOGPROC, GetProgramInfoLog) \
+  X(PFNGLGETPROGRAMIVPROC, GetProgramiv) \
+  X(PFNGLGETSHADERINFOLOGPROC, GetShaderInfoLog) \
+  X(PFNGLGETSHADERIVPROC, GetShaderiv) \
+  X(PFNGLGETSTRINGPROC, GetString) \
+  X(PFNGLGETSTRINGIPROC, GetStringi) \
+  X(PFNGLGETUNIFORMLOCATIONPROC, GetUniformLocation) \
+  X(PFNGLLINKPROGRAMPROC, LinkProgram) \
+  X(PFNGLPIXELSTOREIPROC, PixelStorei) \
+  X(PFNGLPOLYGONOFFSETPROC, PolygonOffset) \
+  X(PFNGLREADBUFFERPROC, ReadBuffer) \
+  X(PFNGLREADPIXELSPROC, ReadPixels) \
+  X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample) \
+  X(PFNGLSCISSORPROC, Scissor) \
+  X(PFNGLSHADERSOURCEPROC, ShaderSource) \
+  X(PFNGLTEXIMAGE2DPROC, TexImage2D) \
+  X(PFNGLTEXIMAGE3DPROC, TexImage3D) \
+  X(PFNGLTEXPARAMETERFPROC, TexParameterf) \
+  X(PFNGLTEXPARAMETERIPROC, TexParameteri) \
+  X(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D) \
+  X(PFNGLTEXSUBIMAGE3DPROC, TexSubImage3D) \
+  X(PFNGLUNIFORM1FPROC, Uniform1f) \
+  X(PFNGLUNIFORM1IPROC, Uniform1i) \
+  X(PFNGLUNIFORM2FPROC, Uniform2f) \
+  X(PFNGLUNIFORM3FPROC, Uniform3f) \
+  X(PFNGLUNIFORM3FVPROC, Uniform3fv) \
+  X(PFNGLUNIFORM4FPROC, Uniform4f) \
+  X(PFNGLUNIFORM4FVPROC, Uniform4fv) \
+  X(PFNGLUNIFORMMATRIX4FVPROC, UniformMatrix4fv) \
+  X(PFNGLUSEPROGRAMPROC, UseProgram) \
+  X(PFNGLVERTEXATTRIB3FPROC, VertexAttrib3f) \
+  X(PFNGLVERTEXATTRIBPOINTERPROC, VertexAttribPointer) \
+  X(PFNGLVIEWPORTPROC, Viewport)
+
+// One member of gl_api.
+#define GL_MEMBER(type, name) type name;
+
+// api->Clear is glClear, and so on.  ClipControl, of OpenGL 4.5, may be NULL.
+typedef struct gl_api {
+  GL_FUNCTIONS(GL_MEMBER)
+  PFNGLCLIPCONTROLPROC ClipControl;
+} gl_api;
+
+const gl_api *gl_functions(const gl *g);
+
+#endif
