@@ -27,11 +27,6 @@ float fresnel_dielectric(float cos_i, float eta, float *cos_t) {
   return (float)(0.5 * (across * across + along * along));
 }
 
-vec3 fresnel_schlick(vec3 f0, float cos_i) {
-  float m = 1 - cos_i, m2 = m * m;
-  return vec3_lerp(f0, vec3_all(1), m2 * m2 * m);
-}
-
 float blinn_phong_norm(float n) {
   return (n + 2) * (n + 4) / (8 * PI * (num_exp2(-0.5f * n) + n));
 }

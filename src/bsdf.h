@@ -7,7 +7,7 @@
 #ifndef BSDF_H
 #define BSDF_H
 
-#include "vec.h"
+#include "microfacet.h"
 
 typedef enum bsdf_kind {
   BSDF_LAMBERT,
@@ -53,9 +53,6 @@ bool bsdf_is_delta(const bsdf *b);
 // the incoming side, eta = index on the far side over this side; *cos_t is
 // the refracted cosine, 0 at total reflection (result 1).
 float fresnel_dielectric(float cos_i, float eta, float *cos_t);
-
-// Schlick's approximation, for the chapter's comparison and the mirror.
-vec3 fresnel_schlick(vec3 f0, float cos_i);
 
 // The normalisation of Blinn-Phong in this project: f = kd/pi + ks (n + 2)(n +
 // 4) / (8 pi (2^(-n/2) + n)) (n.h)^n.  Source: Akenine-Moller et al., Real-Time
