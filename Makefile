@@ -36,7 +36,7 @@ CHAPTER_2 := $(CHAPTER_1) cpu_quota pool digits number text path_find polygon \
 CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material \
              statement scene_file mesh_join material_list scene scene_text
 CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah bvh_part bvh_build rays rays_make
-CHAPTER_5 := $(CHAPTER_4) gl glsl raster
+CHAPTER_5 := $(CHAPTER_4) gl_api gl gl_make glsl raster_scene raster_shadow raster_draw raster
 CHAPTER_6 := $(CHAPTER_5) microfacet dfg bsdf_rough
 CHAPTER_7 := $(CHAPTER_6) ibl raster_env
 CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
@@ -52,7 +52,9 @@ MODULES   := $(LIBRARY) $(COMMAND)
 CHAPTER_17 := $(filter-out main,$(MODULES))
 
 # Objects of those modules that have a .c; the folder of chapter N.
-obj  = $(patsubst src/%.c,$(B)/src/%.o,$(wildcard $(1:%=src/%.c)))
+# Whoever assembles shaders links their text.
+obj  = $(patsubst src/%.c,$(B)/src/%.o,$(wildcard $(1:%=src/%.c))) \
+       $(if $(filter glsl,$(1)),$(B)/shaders.o)
 slug = $(notdir $(wildcard chapters/$(shell printf %02d $(1))-*))
 
 all: build/facet
@@ -68,6 +70,14 @@ $(B)/facet: $(call obj,$(MODULES))
 $(B)/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) $(CFLAGS) -MMD -MP -c $< -o $@
+
+# The files of shaders/ as one table of names and texts (src/glsl.h).
+SHADERS := $(wildcard shaders/*.glsl shaders/*.vert shaders/*.frag)
+$(B)/shaders.c: shaders/embed.sh $(SHADERS)
+	@mkdir -p $(@D)
+	sh shaders/embed.sh $(SHADERS) >$@
+$(B)/shaders.o: $(B)/shaders.c
+	$(CC) $(FLAGS) $(CFLAGS) -c $< -o $@
 
 # A chapter's program writes its pictures into the folder that it is given.
 define chapter_rules

@@ -1,7 +1,7 @@
 // gl.h — an OpenGL 3.3 core context that needs no screen, from whichever
 // library is there when the program runs.
 //
-// No GL header here: what draws includes gl_api.h.
+// No GL header here: what draws includes gl_api.h as well.
 
 #ifndef GL_H
 #define GL_H
@@ -32,6 +32,9 @@ bool gl_adopt(gl **out, gl_function (*load)(const char *name), arena *mem,
 
 // Release the context; the library stays loaded.  NULL is fine.
 void gl_close(gl *g);
+
+// The functions of the context, of gl_api.h.
+const struct gl_api *gl_functions(const gl *g);
 
 // "OSMesa", "EGL" or "window"; and what draws, as the driver names itself.
 const char *gl_backend_name(const gl *g);

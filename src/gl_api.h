@@ -1,10 +1,7 @@
-// gl_api.h — the OpenGL functions that facet calls, found at run time; with
-// what building shaders, textures and framebuffers takes.
+// gl_api.h — the OpenGL functions that facet calls, found at run time.
 
 #ifndef GL_API_H
 #define GL_API_H
-
-#include "gl.h"
 
 #include <GL/glcorearb.h>
 
@@ -101,7 +98,5 @@ typedef struct gl_api {
   GL_FUNCTIONS(GL_MEMBER)
   PFNGLCLIPCONTROLPROC ClipControl;
 } gl_api;
-
-const gl_api *gl_functions(const gl *g);
 
 #endif

@@ -3,6 +3,7 @@
 #ifndef GL_MAKE_H
 #define GL_MAKE_H
 
+#include "gl.h"
 #include "gl_api.h"
 #include "image.h"
 

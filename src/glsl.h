@@ -4,6 +4,7 @@
 #ifndef GLSL_H
 #define GLSL_H
 
+#include "gl.h"
 #include "gl_api.h"
 
 // A file of shaders/: "sky.frag" and its text.
