@@ -1,8 +1,7 @@
 // microfacet.glsl — the twin of src/microfacet.c: same names, same arguments,
-// same order of operations.
+// same order of operations.  Needs num.glsl.
 
-#define PI 3.14159265
-#define ROUGHNESS_MIN 1e-3
+#define ALPHA_MIN 1e-6
 #define DIELECTRIC_F0 0.04
 #define V_DENOMINATOR_MIN 1e-20
 
@@ -24,6 +23,7 @@ half_angles half_angles_of(vec3 n, vec3 wo, vec3 wi) {
 }
 
 float ggx_d(float t, float nh, float alpha) {
+  if (!(alpha >= ALPHA_MIN)) return 0.0;
   float a = alpha * nh;
   float s = alpha / (t + a * a);
   return s * s / PI;

@@ -16,6 +16,7 @@ half_angles half_angles_of(vec3 n, vec3 wo, vec3 wi) {
 // The usual form, nh^2 (alpha^2 - 1) + 1 in place of t + alpha^2 nh^2, is a
 // difference of two numbers near 1.
 float ggx_d(float t, float nh, float alpha) {
+  if (!(alpha >= ALPHA_MIN)) return 0;
   float a = alpha * nh;
   float s = alpha / (t + a * a);
   return s * s / PI;

@@ -15,9 +15,9 @@
 // facet grew from.
 typedef enum pbr_model { PBR_GGX, PBR_REPORT } pbr_model;
 
-// Below this roughness a surface is a mirror: its lobe, alpha = 1e-6 wide, is
-// narrower than ten roundings of a unit vector's coordinates.
-#define ROUGHNESS_MIN 1e-3f
+// Below this alpha, roughness 0.001, a surface is a mirror: its lobe is no
+// wider than the rounding of a few coordinates of unit vectors, 6e-8 each.
+#define ALPHA_MIN 1e-6f
 
 // What a half vector knows about a pair of directions.
 typedef struct half_angles {
@@ -30,8 +30,8 @@ typedef struct half_angles {
 half_angles half_angles_of(vec3 n, vec3 wo, vec3 wi);
 
 // The density of facet normals: D nh integrates to 1 over the hemisphere.
-// alpha = roughness^2 > 0.  Source: Trowbridge and Reitz 1975; Walter et al.
-// 2007, eq. 33.
+// alpha = roughness^2; 0 below ALPHA_MIN.  Source: Trowbridge and Reitz 1975;
+// Walter et al. 2007, eq. 33.
 float ggx_d(float t, float nh, float alpha);
 
 // Shadowing and masking over 4 nl nv.  Source: Heitz 2014, eq. 99.
@@ -55,7 +55,7 @@ vec3 fresnel_schlick(vec3 f0, float oh);
 // F0 of colour c: from DIELECTRIC_F0 to c as metallic goes from 0 to 1.
 vec3 metal_rough_f0(vec3 c, float metallic);
 
-// A surface of roughness above ROUGHNESS_MIN at one point.
+// A surface at one point.
 typedef struct rough {
   pbr_model model;
   vec3 f0;       // specular reflectance at normal incidence
