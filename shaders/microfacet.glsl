@@ -68,10 +68,14 @@ struct rough {
   float e_mean;
 };
 
+float rough_v(rough s, half_angles a) {
+  if (s.model == PBR_GGX) return ggx_v(a.nl, a.nv, s.alpha);
+  return schlick_v(a.nl, a.nv, s.k);
+}
+
 vec3 rough_specular(rough s, half_angles a) {
-  float v = s.model == PBR_GGX ? ggx_v(a.nl, a.nv, s.alpha)
-                               : schlick_v(a.nl, a.nv, s.k);
-  return fresnel_schlick(s.f0, a.oh) * (ggx_d(a.t, a.nh, s.alpha) * v);
+  float dv = ggx_d(a.t, a.nh, s.alpha) * rough_v(s, a);
+  return fresnel_schlick(s.f0, a.oh) * dv;
 }
 
 vec3 rough_diffuse(rough s, half_angles a, float e_l, float e_v) {

@@ -37,8 +37,8 @@ float ggx_v(float nl, float nv, float alpha) {
   return 0.5f / fmaxf(sum, V_DENOMINATOR_MIN);
 }
 
-float ggx_g1(float nv, float alpha) {
-  return 2 * nv / (nv + smith_root(nv, alpha));
+float ggx_g1_over_4nv(float nv, float alpha) {
+  return 0.5f / fmaxf(nv + smith_root(nv, alpha), V_DENOMINATOR_MIN);
 }
 
 float schlick_v(float nl, float nv, float k) {
@@ -62,10 +62,13 @@ vec3 metal_rough_f0(vec3 c, float metallic) {
   return vec3_lerp(vec3_all(DIELECTRIC_F0), c, metallic);
 }
 
+float rough_v(const rough *s, half_angles a) {
+  if (s->model == PBR_GGX) return ggx_v(a.nl, a.nv, s->alpha);
+  return schlick_v(a.nl, a.nv, s->k);
+}
+
 vec3 rough_specular(const rough *s, half_angles a) {
-  float v = s->model == PBR_GGX ? ggx_v(a.nl, a.nv, s->alpha)
-                                : schlick_v(a.nl, a.nv, s->k);
-  float dv = ggx_d(a.t, a.nh, s->alpha) * v;
+  float dv = ggx_d(a.t, a.nh, s->alpha) * rough_v(s, a);
   return vec3_scale(fresnel_schlick(s->f0, a.oh), dv);
 }
 

@@ -37,8 +37,8 @@ float ggx_d(float t, float nh, float alpha);
 // Shadowing and masking over 4 nl nv.  Source: Heitz 2014, eq. 99.
 float ggx_v(float nl, float nv, float alpha);
 
-// Smith's masking of the viewer alone, in [0, 1].
-float ggx_g1(float nv, float alpha);
+// Smith's masking of the viewer alone, over 4 nv.
+float ggx_g1_over_4nv(float nv, float alpha);
 
 // The report's shadowing and masking over 4 nl nv, and its k for light from a
 // point and from all around.  Source: Karis 2013.
@@ -65,6 +65,9 @@ typedef struct rough {
   float e_mean;  // PBR_GGX: mean over the hemisphere, by the cosine, of the
                  // specular albedo of a dielectric
 } rough;
+
+// Shadowing and masking over 4 nl nv by the set of formulas in force.
+float rough_v(const rough *s, half_angles a);
 
 // The two parts of f(wo, wi), without the cosine.  e_l, e_v: specular albedo
 // of a dielectric of this roughness seen from nl and nv (PBR_GGX alone).
