@@ -39,7 +39,8 @@ float ggx_v(float nl, float nv, float alpha) {
 }
 
 float schlick_v(float nl, float nv, float k) {
-  return 0.25 / ((nl * (1.0 - k) + k) * (nv * (1.0 - k) + k));
+  float product = (nl * (1.0 - k) + k) * (nv * (1.0 - k) + k);
+  return 0.25 / max(product, V_DENOMINATOR_MIN);
 }
 
 float schlick_k_point(float roughness) {

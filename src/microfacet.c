@@ -28,8 +28,8 @@ static float smith_root(float c, float alpha) {
   return sqrtf(c * c * (1 - alpha) * (1 + alpha) + alpha * alpha);
 }
 
-// A denominator of ggx_v below this belongs to two directions at grazing
-// incidence at once: V would be infinite, and no light arrives.
+// A denominator of V below this belongs to two directions at grazing incidence
+// at once, and to a mirror: V would be infinite, and no light arrives.
 #define V_DENOMINATOR_MIN 1e-20f
 
 float ggx_v(float nl, float nv, float alpha) {
@@ -42,7 +42,8 @@ float ggx_g1_over_4nv(float nv, float alpha) {
 }
 
 float schlick_v(float nl, float nv, float k) {
-  return 0.25f / ((nl * (1 - k) + k) * (nv * (1 - k) + k));
+  float product = (nl * (1 - k) + k) * (nv * (1 - k) + k);
+  return 0.25f / fmaxf(product, V_DENOMINATOR_MIN);
 }
 
 float schlick_k_point(float roughness) {

@@ -127,9 +127,147 @@ static void terms_are_accurate(void **state) {
   }
 }
 
+// Directions of the facet normals that D is integrated over: the squared
+// tangent a^2 x / (1 - x) for x in steps of 1 / n, whatever a is.
+static double tangent2(double x, double alpha) {
+  return alpha * alpha * x / (1 - x);
+}
+
+// The density of facet normals, D nh, integrates to 1 from the smallest
+// roughness to the largest: in the variable x it is constant.
+static void d_is_a_density(void **state) {
+  (void)state;
+  const int n = 20000;
+  for (int i = 1; i <= 40; i++) {
+    float roughness = fmaxf(1e-3f, (float)(i * i) / 1600);
+    double alpha = (double)(roughness * roughness), sum = 0;
+    for (int k = 0; k < n; k++) {
+      double x = (k + 0.5) / n, t2 = tangent2(x, alpha);
+      double c2 = 1 / (1 + t2), s2 = t2 * c2;
+      double d = (double)ggx_d((float)s2, (float)sqrt(c2), (float)alpha);
+      double dt2 = alpha * alpha / ((1 - x) * (1 - x)) / n;
+      sum += d * c2 * c2 * dt2 * TURN / 2;
+    }
+    assert_true(fabs(sum - 1) < 1e-5);
+  }
+}
+
+// What the viewer sees of all facets is what he would see of the flat surface:
+// the integral of G1 D max(0, wo.h) is nv.  It ties G1 to D.
+static void masking_matches_d(void **state) {
+  (void)state;
+  const int n = shortened(1000);
+  for (float nv = 0.1f; nv <= 1; nv += 0.3f)
+    for (float roughness = 0.2f; roughness <= 1; roughness += 0.2f) {
+      double alpha = (double)(roughness * roughness), sum = 0;
+      double sine = sqrt(1 - (double)nv * (double)nv);
+      for (int i = 0; i < n * n; i++) {
+        double y = (i / n + 0.5) / n, phi = TURN * (i % n + 0.5) / n;
+        double tangent = sqrt(tangent2(1 - y * y, alpha));
+        double seen = sine * tangent * cos(phi) + (double)nv;  // wo.h / nh
+        sum += fmax(seen, 0) * 2 * y / n / n;  // D nh dh is dx dphi / 2 pi
+      }
+      double g1_over_nv = 4 * (double)ggx_g1_over_4nv(nv, (float)alpha);
+      assert_true(fabs(sum * g1_over_nv - 1) < (n > 500 ? 1e-4 : 0.01));
+    }
+}
+
+// Light and viewer may change places: the same bits.
+static void reciprocity(void **state) {
+  (void)state;
+  rng r = rng_of(5, 0, 0);
+  for (int i = 0; i < 20000; i++) {
+    vec3 wo = at_angle(rng_next(&r), rng_next(&r));
+    vec3 wi = at_angle(rng_next(&r), rng_next(&r));
+    float roughness = rng_next(&r), e1 = rng_next(&r), e2 = rng_next(&r);
+    rough s = {.model = i % 2 ? PBR_GGX : PBR_REPORT, .e_mean = 0.5f};
+    s.f0 = s.kd = (vec3){0.04f, 0.5f, 0.9f};
+    s.alpha = roughness * roughness;
+    s.k = schlick_k_point(roughness);
+    half_angles a = half_angles_of((vec3){0, 0, 1}, wo, wi);
+    half_angles b = half_angles_of((vec3){0, 0, 1}, wi, wo);
+    vec3 f = rough_specular(&s, a), g = rough_specular(&s, b);
+    assert_memory_equal(&f, &g, sizeof f);
+    f = rough_diffuse(&s, a, e1, e2), g = rough_diffuse(&s, b, e2, e1);
+    assert_true(vec3_length(vec3_sub(f, g)) <= 1e-6f * vec3_length(f));
+  }
+}
+
+// The report's formulas as it prints them, less its errata, in double.
+static void report_as_corrected(void **state) {
+  (void)state;
+  rng r = rng_of(6, 0, 0);
+  for (int i = 0; i < 20000; i++) {
+    vec3 wo = at_angle(0.01f + 0.99f * rng_next(&r), rng_next(&r));
+    vec3 wi = at_angle(0.01f + 0.99f * rng_next(&r), rng_next(&r));
+    float roughness = 0.05f + 0.95f * rng_next(&r), m = rng_next(&r);
+    const float c = 0.7f;
+    rough s = {.model = PBR_REPORT, .f0 = metal_rough_f0(vec3_all(c), m)};
+    s.kd = vec3_all((1 - m) * c);
+    s.alpha = roughness * roughness;
+    s.k = schlick_k_point(roughness);
+    half_angles a = half_angles_of((vec3){0, 0, 1}, wo, wi);
+    double nl = (double)wi.z, nv = (double)wo.z, rr = (double)roughness;
+    double k = (rr + 1) * (rr + 1) / 8;
+    double g = nl / (nl * (1 - k) + k) * nv / (nv * (1 - k) + k);
+    exact e = exact_terms(wo, wi, roughness, s.f0.x);
+    double specular = (double)(e.d * e.f) * g / (4 * nl * nv);
+    double diffuse = (1 - (double)e.f) * (1 - (double)m) * (double)c * 2 / TURN;
+    double got_s = (double)rough_specular(&s, a).x;
+    double got_d = (double)rough_diffuse(&s, a, 0, 0).x;
+    assert_true(fabs(got_s - specular) <= 2e-5 * specular);
+    assert_true(fabs(got_d - diffuse) <= 2e-6);
+    assert_true((double)schlick_k_env(roughness) - rr * rr / 2 < 1e-7);
+  }
+}
+
+// Nothing is negative, infinite or no number, at the ends of all ranges and in
+// combinations of them, opposite directions and roughness 0 among them.
+static void finite_everywhere(void **state) {
+  (void)state;
+  const float ends[9] = {0,     1e-45f, 1e-30f,     1e-12f, 1e-6f,
+                         1e-3f, 0.5f,   0.9999999f, 1};
+  for (int i = 0; i < 9 * 9 * 9 * 4; i++) {
+    float roughness = ends[i % 9];
+    vec3 wo = at_angle(ends[i / 9 % 9], 0);
+    vec3 wi = at_angle(ends[i / 81 % 9], (float)(i / 729) / 6);
+    half_angles a = half_angles_of((vec3){0, 0, 1}, wo, wi);
+    for (int model = PBR_GGX; model <= PBR_REPORT; model++) {
+      rough s = {.model = (pbr_model)model, .e_mean = 0.1f};
+      s.f0 = (vec3){0, 0.04f, 1};
+      s.kd = vec3_all(1);
+      s.alpha = roughness * roughness;
+      s.k = schlick_k_env(roughness);
+      vec3 f = rough_specular(&s, a), d = rough_diffuse(&s, a, 0.3f, 0.4f);
+      assert_true(vec3_finite(f) && vec3_finite(vec3_scale(f, a.nl)));
+      assert_true(f.x >= 0 && f.y >= 0 && f.z >= 0 && vec3_finite(d));
+      assert_true(d.x >= 0 && d.y >= 0 && d.z >= -1e-6f);
+      assert_true(s.alpha >= ALPHA_MIN || vec3_peak(f) == 0);
+    }
+  }
+}
+
+// F is F0 facing the mirror and 1 along it; F0 goes from 0.04 to the colour.
+static void ends_of_fresnel(void **state) {
+  (void)state;
+  vec3 c = {0.9f, 0.5f, 0.04f};
+  assert_float_equal(fresnel_schlick(c, 1).x, 0.9f, 0);
+  assert_float_equal(fresnel_schlick(c, 0).z, 1, 0);
+  assert_float_equal(fresnel_schlick(c, 0.5f).y, 0.5f + 0.5f / 32, 1e-7);
+  assert_float_equal(metal_rough_f0(c, 0).x, 0.04f, 0);
+  assert_float_equal(metal_rough_f0(c, 1).y, 0.5f, 0);
+  assert_float_equal(metal_rough_f0(c, 0.5f).x, 0.47f, 1e-7);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(terms_are_accurate),
+      cmocka_unit_test(d_is_a_density),
+      cmocka_unit_test(masking_matches_d),
+      cmocka_unit_test(reciprocity),
+      cmocka_unit_test(report_as_corrected),
+      cmocka_unit_test(finite_everywhere),
+      cmocka_unit_test(ends_of_fresnel),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
