@@ -16,7 +16,7 @@ typedef struct glsl_file {
 extern const glsl_file GLSL_FILES[];
 
 // The most files in one stage.
-enum { GLSL_MAX_PARTS = 12 };
+enum { GLSL_MAX_PARTS = 16 };
 
 // What a program is made of.  Each stage is the files in this order, with
 // NULL at the end, after "#version 330 core" and the defines.

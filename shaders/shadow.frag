@@ -1,0 +1,4 @@
+// shadow.frag — depth is all that counts.
+
+void main() {
+}

@@ -1,0 +1,199 @@
+// raster.c
+
+#include "raster.h"
+
+#include "clock.h"
+#include "raster_pass.h"
+
+struct raster {
+  raster_stock stock;
+  raster_times times;
+  arena *mem;
+};
+
+// What faces without any material look like: as in the path engine.
+static const material GREY = {.kd = {0.8f, 0.8f, 0.8f}, .d = 1};
+
+static void copy_materials(raster_stock *r, arena *mem) {
+  size_t n = r->scene->material_count;
+  r->materials = ARENA_NEW(mem, material, n > 0 ? n : 1);
+  r->hidden = ARENA_NEW(mem, bool, n > 0 ? n : 1);
+  r->materials[0] = GREY;
+  for (size_t i = 0; i < n; i++)
+    r->materials[i] = r->scene->materials[i];
+}
+
+static void upload_env(raster_stock *r) {
+  const env *e = &r->scene->env;
+  if (e->kind == ENV_NONE) return;
+  r->above = raster_irradiance(e, (vec3){0, 1, 0});
+  r->below = raster_irradiance(e, (vec3){0, -1, 0});
+  if (e->kind != ENV_MAP || e->map.pixels == NULL) return;
+  r->env_map =
+      gl_texture_new(r->g, &(gl_texture_spec){.width = e->map.width,
+                                              .height = e->map.height,
+                                              .internal = GL_RGB32F,
+                                              .format = GL_RGB,
+                                              .type = GL_FLOAT,
+                                              .pixels = e->map.pixels,
+                                              .wrap_s = GL_REPEAT,
+                                              .wrap_t = GL_CLAMP_TO_EDGE});
+}
+
+static raster_space space_of(const raster_stock *r) {
+  vec3 half = vec3_scale(vec3_sub(r->scene->hi, r->scene->lo), 0.5f);
+  float radius = vec3_length(half);
+  bool reversed = gl_functions(r->g)->ClipControl != NULL;
+  return (raster_space){r->mesh.origin, radius > 0 ? radius : 1, reversed};
+}
+
+// Shadow maps, when they are wanted and not there yet.
+static bool ready_shadows(raster *r, error *err) {
+  raster_stock *s = &r->stock;
+  bool wanted = s->set.lights && s->set.shadows && s->scene->light_count > 0;
+  bool had = s->shadow.layers > 0;
+  if (wanted && !had &&
+      !raster_shadow_new(&s->shadow, s->g, s->scene, s->space,
+                         s->set.shadow_size, r->mem, err))
+    return false;
+  if (!wanted && had) raster_shadow_free(s->g, &s->shadow);
+  if (wanted != had) s->shadows_drawn = false;
+  s->programs.shadow_layers = s->shadow.layers;
+  return true;
+}
+
+// The programs that the frame needs, before it is timed.
+static bool ready_programs(raster_stock *s, error *err) {
+  for (size_t i = 0; i < s->mesh.part_count; i++) {
+    GLuint program;
+    if (s->mesh.parts[i].count == 0) continue;
+    raster_variant v =
+        raster_variant_of(&s->set, &s->materials[i], s->set.shading);
+    if (!raster_program_get(&program, &s->programs, v, err)) return false;
+  }
+  return true;
+}
+
+static bool upload(raster *r, arena *mem, error *err) {
+  raster_stock *s = &r->stock;
+  raster_mesh_upload(&s->mesh, s->g, s->scene, mem);
+  s->space = space_of(s);
+  s->maps = raster_maps_upload(s->g, s->scene, mem);
+  copy_materials(s, mem);
+  upload_env(s);
+  gl_functions(s->g)->GenVertexArrays(1, &s->no_vertices);
+  s->programs = (raster_programs){.g = s->g,
+                                  .set = &s->set,
+                                  .lights = s->scene->light_count,
+                                  .env = s->scene->env.kind,
+                                  .clip_control = s->space.reversed};
+  raster_window w = raster_window_of(&s->set);
+  return gl_target_new(&s->target, s->g, w.x1 - w.x0, w.y1 - w.y0, s->set.msaa,
+                       err);
+}
+
+bool raster_new(raster **out, gl *g, const scene *s, const raster_settings *set,
+                arena *mem, error *err) {
+  if (s->light_count > RASTER_MAX_LIGHTS)
+    return fail(err, "OpenGL: %zu lights, expected at most %d", s->light_count,
+                RASTER_MAX_LIGHTS);
+  double start = clock_seconds();
+  raster *r = ARENA_NEW(mem, raster, 1);
+  r->mem = mem;
+  r->stock = (raster_stock){.g = g, .scene = s, .set = *set};
+  bool ok = upload(r, mem, err);
+  r->times.upload = clock_seconds() - start;
+  ok = ok && ready_shadows(r, err) && ready_programs(&r->stock, err);
+  r->times.compile = r->stock.programs.seconds;
+  if (ok)
+    *out = r;
+  else
+    raster_free(r);
+  return ok;
+}
+
+void raster_free(raster *r) {
+  raster_stock *s = &r->stock;
+  const gl_api *f = gl_functions(s->g);
+  raster_mesh_free(s->g, &s->mesh);
+  if (s->maps != NULL) raster_maps_free(s->g, s->maps, s->scene);
+  if (s->programs.g != NULL) raster_programs_free(&s->programs);
+  raster_shadow_free(s->g, &s->shadow);
+  gl_target_free(s->g, &s->target);
+  f->DeleteTextures(1, &s->env_map);
+  f->DeleteVertexArrays(1, &s->no_vertices);
+}
+
+bool raster_draw(raster *r, const camera_view *view, error *err) {
+  raster_stock *s = &r->stock;
+  const gl_api *f = gl_functions(s->g);
+  s->view = raster_view_of(view, raster_window_of(&s->set), s->scene, s->space);
+  double start = clock_seconds(), compiled = s->programs.seconds;
+  r->times.shadow = 0;
+  if (s->shadow.layers > 0 && !s->shadows_drawn) {
+    if (!raster_pass_shadows(s, err)) return false;
+    f->Finish();
+    s->shadows_drawn = true;
+    r->times.shadow = clock_seconds() - start;
+    start = clock_seconds();
+  }
+  if (!raster_pass_frame(s, s->set.shading, false, err)) return false;
+  f->Finish();
+  r->times.draw = clock_seconds() - start;
+  r->times.compile += s->programs.seconds - compiled;
+  return true;
+}
+
+image raster_read(raster *r, arena *mem) {
+  double start = clock_seconds();
+  image out = gl_target_image(r->stock.g, &r->stock.target, NULL, mem);
+  r->times.read = clock_seconds() - start;
+  return out;
+}
+
+// A pixel's mean over those samples that see something is the mean over all
+// divided by their share, which lies in alpha; depth alone counts so.
+bool raster_read_aov(image *out, raster *r, raster_shading which, arena *mem,
+                     error *err) {
+  raster_stock *s = &r->stock;
+  if (!raster_pass_frame(s, which, true, err)) return false;
+  arena scratch = {0};
+  size_t n = (size_t)s->target.width * (size_t)s->target.height;
+  float *alpha = ARENA_NEW(&scratch, float, n);
+  image it = gl_target_image(s->g, &s->target, alpha, mem);
+  for (size_t i = 0; i < n && which == RASTER_DEPTH; i++)
+    if (alpha[i] > 0) it.pixels[i] = vec3_scale(it.pixels[i], 1 / alpha[i]);
+  arena_free(&scratch);
+  *out = it;
+  return true;
+}
+
+bool raster_change(raster *r, const raster_settings *set, error *err) {
+  raster_stock *s = &r->stock;
+  raster_settings now = *set, old = s->set;
+  now.width = old.width, now.height = old.height, now.msaa = old.msaa;
+  now.x0 = old.x0, now.y0 = old.y0, now.x1 = old.x1, now.y1 = old.y1;
+  raster_programs_free(&s->programs);
+  s->set = now;
+  return ready_shadows(r, err) && ready_programs(s, err);
+}
+
+material *raster_materials(raster *r, size_t *count) {
+  *count = r->stock.mesh.part_count;
+  return r->stock.materials;
+}
+
+void raster_hide(raster *r, size_t which, bool hidden) {
+  if (r->stock.hidden[which] == hidden) return;
+  r->stock.hidden[which] = hidden;
+  r->stock.shadows_drawn = false;
+}
+
+raster_frame raster_last_frame(const raster *r) {
+  const gl_target *t = &r->stock.target;
+  return (raster_frame){t->read, t->resolved, t->width, t->height};
+}
+
+raster_times raster_last_times(const raster *r) {
+  return r->times;
+}

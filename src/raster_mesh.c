@@ -1,0 +1,186 @@
+// raster_mesh.c
+
+#include "raster_mesh.h"
+
+#include <stddef.h>
+#include <stdlib.h>
+
+// What the vertex shader gets.
+typedef struct vertex {
+  vec3 position, normal, facet;
+  vec2 texcoord;
+  vec3 color;
+} vertex;
+
+// The unit normal by the winding, in double as in the path engine; +z where
+// the triangle has no area.
+static vec3 facet_normal(const vec3 p[3]) {
+  double a[3] = {(double)p[1].x - (double)p[0].x,
+                 (double)p[1].y - (double)p[0].y,
+                 (double)p[1].z - (double)p[0].z};
+  double b[3] = {(double)p[2].x - (double)p[0].x,
+                 (double)p[2].y - (double)p[0].y,
+                 (double)p[2].z - (double)p[0].z};
+  double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                 a[0] * b[1] - a[1] * b[0]};
+  double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  if (!(length > 0)) return (vec3){0, 0, 1};
+  return (vec3){(float)(n[0] / length), (float)(n[1] / length),
+                (float)(n[2] / length)};
+}
+
+// The shading normals of the corners: the file's, or the facet's where it
+// gives none; turned to the winding's side where as a whole they are not.
+static void shading_normals(vertex v[3], const mesh *m, size_t triangle) {
+  bool own[3] = {false, false, false};
+  float side = 0;
+  for (size_t i = 0; i < 3; i++) {
+    v[i].normal = v[i].facet;
+    uint32_t k =
+        m->normal_index == NULL ? MESH_NONE : m->normal_index[3 * triangle + i];
+    if (k == MESH_NONE) continue;
+    vec3 n = vec3_unit(m->normals[k]);
+    if (!(fabsf(vec3_dot(n, n) - 1) < 0.01f)) continue;
+    v[i].normal = n;
+    own[i] = true;
+    side += vec3_dot(n, v[i].facet);
+  }
+  for (size_t i = 0; i < 3; i++)
+    if (own[i] && side < 0) v[i].normal = vec3_neg(v[i].normal);
+}
+
+// The three vertices of a triangle; false where one is not finite.
+static bool vertices_of(vertex v[3], const mesh *m, size_t triangle,
+                        vec3 origin) {
+  vec3 p[3];
+  for (size_t i = 0; i < 3; i++) {
+    uint32_t k = m->position_index[3 * triangle + i];
+    p[i] = m->positions[k];
+    if (!vec3_finite(p[i])) return false;
+    v[i] = (vertex){.position = vec3_sub(p[i], origin), .color = vec3_all(1)};
+    if (m->colors != NULL) v[i].color = m->colors[k];
+    uint32_t t = m->texcoord_index == NULL
+                     ? MESH_NONE
+                     : m->texcoord_index[3 * triangle + i];
+    if (t != MESH_NONE) v[i].texcoord = m->texcoords[t];
+  }
+  for (size_t i = 0; i < 3; i++)
+    v[i].facet = facet_normal(p);
+  shading_normals(v, m, triangle);
+  return true;
+}
+
+static uint32_t material_index(const scene *s, size_t triangle) {
+  return s->material_of == NULL ? 0 : s->material_of[triangle];
+}
+
+static bool lets_through(const scene *s, uint32_t of) {
+  return s->material_count > 0 && s->materials[of].passes;
+}
+
+// Where the vertices of each material begin, for room for all triangles.
+static void make_parts(raster_mesh *out, const scene *s, arena *mem) {
+  out->part_count = s->material_count > 0 ? s->material_count : 1;
+  out->parts = ARENA_NEW(mem, raster_part, out->part_count);
+  size_t sheets = 0;
+  for (size_t t = 0; t < s->mesh.triangle_count; t++) {
+    uint32_t of = material_index(s, t);
+    out->parts[of].count += 3;
+    sheets += lets_through(s, of);
+  }
+  GLint first = 0;
+  for (size_t i = 0; i < out->part_count; i++) {
+    out->parts[i].first = first;
+    first += out->parts[i].count;
+    out->parts[i].count = 0;
+  }
+  out->sheets = ARENA_NEW(mem, raster_sheet, sheets);
+  out->sheet_index = ARENA_NEW(mem, uint32_t, 3 * sheets);
+}
+
+static void add_sheet(raster_mesh *out, const vertex v[3], uint32_t first,
+                      uint32_t of) {
+  vec3 sum = vec3_add(v[0].position, vec3_add(v[1].position, v[2].position));
+  out->sheets[out->sheet_count++] = (raster_sheet){
+      .middle = vec3_scale(sum, 1.0f / 3), .first = first, .material = of};
+}
+
+// Fill the parts, and note the sheets.
+static void fill_parts(raster_mesh *out, vertex *all, const scene *s) {
+  for (size_t t = 0; t < s->mesh.triangle_count; t++) {
+    uint32_t of = material_index(s, t);
+    raster_part *part = &out->parts[of];
+    size_t at = (size_t)part->first + (size_t)part->count;
+    if (!vertices_of(all + at, &s->mesh, t, out->origin)) continue;
+    part->count += 3;
+    if (lets_through(s, of)) add_sheet(out, all + at, (uint32_t)at, of);
+  }
+}
+
+static void describe_attribute(const gl_api *f, GLuint number, GLint floats,
+                               size_t offset) {
+  f->EnableVertexAttribArray(number);
+  f->VertexAttribPointer(number, floats, GL_FLOAT, GL_FALSE, sizeof(vertex),
+                         (const char *)NULL + offset);
+}
+
+static void describe_vertices(const gl_api *f) {
+  describe_attribute(f, 0, 3, offsetof(vertex, position));
+  describe_attribute(f, 1, 3, offsetof(vertex, normal));
+  describe_attribute(f, 2, 3, offsetof(vertex, facet));
+  describe_attribute(f, 3, 2, offsetof(vertex, texcoord));
+  describe_attribute(f, 4, 3, offsetof(vertex, color));
+}
+
+void raster_mesh_upload(raster_mesh *out, const gl *g, const scene *s,
+                        arena *mem) {
+  const gl_api *f = gl_functions(g);
+  *out = (raster_mesh){0};
+  vec3 middle = vec3_scale(vec3_add(s->lo, s->hi), 0.5f);
+  if (vec3_finite(middle)) out->origin = middle;
+  make_parts(out, s, mem);
+  arena scratch = {0};
+  size_t count = 3 * s->mesh.triangle_count;
+  vertex *all = ARENA_NEW(&scratch, vertex, count);
+  fill_parts(out, all, s);
+  f->GenVertexArrays(1, &out->vertices);
+  f->BindVertexArray(out->vertices);
+  f->GenBuffers(1, &out->buffer);
+  f->BindBuffer(GL_ARRAY_BUFFER, out->buffer);
+  f->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof *all), all,
+                GL_STATIC_DRAW);
+  describe_vertices(f);
+  f->GenBuffers(1, &out->indices);
+  f->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, out->indices);
+  arena_free(&scratch);
+}
+
+void raster_mesh_free(const gl *g, raster_mesh *m) {
+  const gl_api *f = gl_functions(g);
+  f->DeleteVertexArrays(1, &m->vertices);
+  f->DeleteBuffers(1, &m->buffer);
+  f->DeleteBuffers(1, &m->indices);
+}
+
+// Far ones first; of equally far ones the first in the file.
+static int farther(const void *a, const void *b) {
+  const raster_sheet *x = a, *y = b;
+  if (x->depth != y->depth) return x->depth < y->depth ? 1 : -1;
+  return x->first < y->first ? -1 : x->first > y->first;
+}
+
+void raster_mesh_sort(raster_mesh *m, const gl *g, vec3 eye, vec3 forward) {
+  const gl_api *f = gl_functions(g);
+  for (size_t i = 0; i < m->sheet_count; i++) {
+    raster_sheet *s = &m->sheets[i];
+    s->depth = vec3_dot(vec3_sub(s->middle, eye), forward);
+  }
+  qsort(m->sheets, m->sheet_count, sizeof *m->sheets, farther);
+  for (size_t i = 0; i < 3 * m->sheet_count; i++)
+    m->sheet_index[i] = m->sheets[i / 3].first + (uint32_t)(i % 3);
+  f->BindVertexArray(m->vertices);
+  f->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->indices);
+  f->BufferData(GL_ELEMENT_ARRAY_BUFFER,
+                (GLsizeiptr)(3 * m->sheet_count * sizeof *m->sheet_index),
+                m->sheet_index, GL_STREAM_DRAW);
+}

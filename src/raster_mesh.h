@@ -1,0 +1,46 @@
+// raster_mesh.h — the triangles of a scene as a list of vertices in the memory
+// of the context, sorted by material.
+
+#ifndef RASTER_MESH_H
+#define RASTER_MESH_H
+
+#include "gl.h"
+#include "gl_api.h"
+#include "scene.h"
+
+// The vertices of one material, three a triangle.
+typedef struct raster_part {
+  GLint first;
+  GLsizei count;
+} raster_part;
+
+// A triangle that lets light straight through, to be drawn from far to near.
+typedef struct raster_sheet {
+  vec3 middle;     // less the origin
+  uint32_t first;  // vertex
+  uint32_t material;
+  float depth;  // of the view that the sheets are sorted for
+} raster_sheet;
+
+typedef struct raster_mesh {
+  vec3 origin;  // taken off all positions: floats are finest near 0
+  GLuint vertices, buffer, indices;
+  raster_part *parts;  // by material of the scene, at least one
+  size_t part_count;
+  raster_sheet *sheets;
+  size_t sheet_count;
+  uint32_t *sheet_index;  // room for their vertices
+} raster_mesh;
+
+// The vertex attributes, in order, as glsl_spec.attributes wants them.
+#define RASTER_ATTRIBUTES "in_position in_normal in_facet in_texcoord in_color"
+
+void raster_mesh_upload(raster_mesh *out, const gl *g, const scene *s,
+                        arena *mem);
+void raster_mesh_free(const gl *g, raster_mesh *m);
+
+// Sort the sheets for a view from `eye`, less the origin, along `forward`, and
+// upload their indices: the far ones come first.
+void raster_mesh_sort(raster_mesh *m, const gl *g, vec3 eye, vec3 forward);
+
+#endif

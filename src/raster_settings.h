@@ -1,0 +1,59 @@
+// raster_settings.h — what the rasteriser is asked for.
+
+#ifndef RASTER_SETTINGS_H
+#define RASTER_SETTINGS_H
+
+#include "gl.h"
+#include "scene.h"
+
+// What a pixel shows: the same as of the path engine's pictures.
+typedef enum raster_shading {
+  RASTER_RADIANCE,
+  RASTER_NORMAL,  // (n + 1) / 2 of the shading normal, 0 where there is none
+  RASTER_DEPTH,   // along the view axis, over that of the farthest corner of
+                  // the scene's box; 1 where there is nothing
+  RASTER_ALBEDO
+} raster_shading;
+
+// The formulas of metallic-roughness.
+typedef enum raster_model { RASTER_GGX, RASTER_REPORT } raster_model;
+
+// Shader files in the place of this chapter's own, with what they need.  The
+// later chapters' way into a surface's program.
+typedef struct raster_piece {
+  const char *shaders[4];  // files of shaders/, NULL at the end
+  const char *defines;     // lines for every shader, or NULL
+  // Bind textures to units first_unit, first_unit + 1, ... and set uniforms
+  // of the program, which is in use.  Called before each material is drawn.
+  void (*bind)(const void *context, const gl *g, unsigned program,
+               int first_unit);  // may be NULL
+  const void *context;
+} raster_piece;
+
+// The first texture units that are free for the pieces' bind.
+enum { RASTER_AMBIENT_UNIT = 11, RASTER_METAL_ROUGH_UNIT = 15 };
+
+// The most point and directional lights.
+enum { RASTER_MAX_LIGHTS = 32 };
+
+typedef struct raster_settings {
+  int width, height;
+  int x0, y0, x1, y1;  // crop, half-open; all of the film when x1 is 0
+  int msaa;            // samples a pixel: 1 is one in its middle; 0 counts as 1
+  bool lights, shadows;
+  bool sky;  // show the environment behind everything
+  raster_shading shading;
+  raster_model model;
+  bool force_blinn_phong, force_pbr;  // --shading: every material by one model
+  // In place of ambient.glsl: light from the environment.  Defines
+  //   vec3 ambient_irradiance(vec3 n)
+  //   vec3 ambient_radiance(vec3 d, float roughness)
+  raster_piece ambient;
+  // In place of metal_rough.glsl.  Defines
+  //   vec3 matter_direct(matter m, vec3 n, vec3 wo, vec3 wi)
+  //   vec3 matter_ambient(matter m, vec3 n, vec3 wo)
+  raster_piece metal_rough;
+  int shadow_size;  // texels a side of a shadow map; 0: chosen
+} raster_settings;
+
+#endif
