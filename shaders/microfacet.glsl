@@ -60,7 +60,7 @@ vec3 metal_rough_f0(vec3 c, float metallic) {
   return mix(vec3(DIELECTRIC_F0), c, metallic);
 }
 
-struct rough {
+struct rough_terms {
   int model;
   vec3 f0;
   vec3 kd;
@@ -69,17 +69,17 @@ struct rough {
   float e_mean;
 };
 
-float rough_v(rough s, half_angles a) {
+float rough_v(rough_terms s, half_angles a) {
   if (s.model == PBR_GGX) return ggx_v(a.nl, a.nv, s.alpha);
   return schlick_v(a.nl, a.nv, s.k);
 }
 
-vec3 rough_specular(rough s, half_angles a) {
+vec3 rough_specular(rough_terms s, half_angles a) {
   float dv = ggx_d(a.t, a.nh, s.alpha) * rough_v(s, a);
   return fresnel_schlick(s.f0, a.oh) * dv;
 }
 
-vec3 rough_diffuse(rough s, half_angles a, float e_l, float e_v) {
+vec3 rough_diffuse(rough_terms s, half_angles a, float e_l, float e_v) {
   if (s.model == PBR_GGX)
     return s.kd * ((1.0 - e_l) * (1.0 - e_v) / (1.0 - s.e_mean) / PI);
   return s.kd * (vec3(1.0) - fresnel_schlick(s.f0, a.oh)) / PI;

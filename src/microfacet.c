@@ -63,12 +63,12 @@ vec3 metal_rough_f0(vec3 c, float metallic) {
   return vec3_lerp(vec3_all(DIELECTRIC_F0), c, metallic);
 }
 
-float rough_v(const rough *s, half_angles a) {
+float rough_v(const rough_terms *s, half_angles a) {
   if (s->model == PBR_GGX) return ggx_v(a.nl, a.nv, s->alpha);
   return schlick_v(a.nl, a.nv, s->k);
 }
 
-vec3 rough_specular(const rough *s, half_angles a) {
+vec3 rough_specular(const rough_terms *s, half_angles a) {
   float dv = ggx_d(a.t, a.nh, s->alpha) * rough_v(s, a);
   return vec3_scale(fresnel_schlick(s->f0, a.oh), dv);
 }
@@ -76,7 +76,7 @@ vec3 rough_specular(const rough *s, half_angles a) {
 // PBR_GGX: the share that passes the coat on its way in, times that on its way
 // out, over the mean of it, so that light which is not reflected by the coat
 // comes back by the ground.  Source: Kelemen and Szirmay-Kalos 2001.
-vec3 rough_diffuse(const rough *s, half_angles a, float e_l, float e_v) {
+vec3 rough_diffuse(const rough_terms *s, half_angles a, float e_l, float e_v) {
   if (s->model == PBR_GGX) {
     float share = (1 - e_l) * (1 - e_v) / (1 - s->e_mean);
     return vec3_scale(s->kd, share / PI);

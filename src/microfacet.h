@@ -56,7 +56,7 @@ vec3 fresnel_schlick(vec3 f0, float oh);
 vec3 metal_rough_f0(vec3 c, float metallic);
 
 // A surface at one point.
-typedef struct rough {
+typedef struct rough_terms {
   pbr_model model;
   vec3 f0;       // specular reflectance at normal incidence
   vec3 kd;       // (1 - metallic) c
@@ -64,15 +64,15 @@ typedef struct rough {
   float k;       // PBR_REPORT: schlick_k_point or schlick_k_env
   float e_mean;  // PBR_GGX: mean over the hemisphere, by the cosine, of the
                  // specular albedo of a dielectric
-} rough;
+} rough_terms;
 
 // Shadowing and masking over 4 nl nv by the set of formulas in force.
-float rough_v(const rough *s, half_angles a);
+float rough_v(const rough_terms *s, half_angles a);
 
 // The two parts of f(wo, wi), without the cosine.  e_l, e_v: specular albedo
 // of a dielectric of this roughness seen from nl and nv (PBR_GGX alone).
 // Neither is negative or infinite for cosines in [0, 1].
-vec3 rough_specular(const rough *s, half_angles a);
-vec3 rough_diffuse(const rough *s, half_angles a, float e_l, float e_v);
+vec3 rough_specular(const rough_terms *s, half_angles a);
+vec3 rough_diffuse(const rough_terms *s, half_angles a, float e_l, float e_v);
 
 #endif

@@ -89,7 +89,7 @@ static void terms_at(errors e[4], float roughness, vec3 wo, vec3 wi) {
   float alpha = roughness * roughness;
   double d = (double)ggx_d(a.t, a.nh, alpha);
   double v = (double)ggx_v(a.nl, a.nv, alpha);
-  rough s = {.f0 = vec3_all(0.04f), .alpha = alpha};
+  rough_terms s = {.f0 = vec3_all(0.04f), .alpha = alpha};
   note(&e[0], d, want.d);
   note(&e[1], v, want.v);
   note(&e[2], (double)fresnel_schlick(s.f0, a.oh).x, want.f);
@@ -180,7 +180,7 @@ static void reciprocity(void **state) {
     vec3 wo = at_angle(rng_next(&r), rng_next(&r));
     vec3 wi = at_angle(rng_next(&r), rng_next(&r));
     float roughness = rng_next(&r), e1 = rng_next(&r), e2 = rng_next(&r);
-    rough s = {.model = i % 2 ? PBR_GGX : PBR_REPORT, .e_mean = 0.5f};
+    rough_terms s = {.model = i % 2 ? PBR_GGX : PBR_REPORT, .e_mean = 0.5f};
     s.f0 = s.kd = (vec3){0.04f, 0.5f, 0.9f};
     s.alpha = roughness * roughness;
     s.k = schlick_k_point(roughness);
@@ -202,7 +202,7 @@ static void report_as_corrected(void **state) {
     vec3 wi = at_angle(0.01f + 0.99f * rng_next(&r), rng_next(&r));
     float roughness = 0.05f + 0.95f * rng_next(&r), m = rng_next(&r);
     const float c = 0.7f;
-    rough s = {.model = PBR_REPORT, .f0 = metal_rough_f0(vec3_all(c), m)};
+    rough_terms s = {.model = PBR_REPORT, .f0 = metal_rough_f0(vec3_all(c), m)};
     s.kd = vec3_all((1 - m) * c);
     s.alpha = roughness * roughness;
     s.k = schlick_k_point(roughness);
@@ -233,7 +233,7 @@ static void finite_everywhere(void **state) {
     vec3 wi = at_angle(ends[i / 81 % 9], (float)(i / 729) / 6);
     half_angles a = half_angles_of((vec3){0, 0, 1}, wo, wi);
     for (int model = PBR_GGX; model <= PBR_REPORT; model++) {
-      rough s = {.model = (pbr_model)model, .e_mean = 0.1f};
+      rough_terms s = {.model = (pbr_model)model, .e_mean = 0.1f};
       s.f0 = (vec3){0, 0.04f, 1};
       s.kd = vec3_all(1);
       s.alpha = roughness * roughness;
