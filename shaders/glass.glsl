@@ -1,4 +1,4 @@
-// glass.glsl — clear glass, which sees the environment and nothing else.
+// glass.glsl — clear bodies, which show the environment and nothing else.
 
 // Exact unpolarised reflectance; eta is the index inside over outside.
 float glass_reflectance(float cos_i, float eta) {
@@ -10,10 +10,6 @@ float glass_reflectance(float cos_i, float eta) {
   return 0.5 * (across * across + along * along);
 }
 
-vec3 matter_direct(matter m, vec3 n, vec3 wo, vec3 wi) {
-  return vec3(0.0);
-}
-
 // Where light leaves that entered along t at the normal n.  The far side is
 // not known here.  A flat facet is taken for a pane, whose far side undoes
 // what the near side did; a curved one for a ball: there the ray meets the far
@@ -23,10 +19,12 @@ vec3 glass_exit(vec3 n, vec3 t, vec3 wo, float eta) {
   return refract(t, 2.0 * dot(n, t) * t - n, eta);
 }
 
-vec3 matter_ambient(matter m, vec3 n, vec3 wo) {
+// The environment as a clear body shows it, stained by tint on the way
+// through.
+vec3 glass_seen(matter m, vec3 n, vec3 wo, vec3 tint) {
   float eta = m.ni > 0.0 ? m.ni : 1.0;
   float share = glass_reflectance(dot(n, wo), eta);
   vec3 t = refract(-wo, n, 1.0 / eta);
-  return mix(env_seen(glass_exit(n, t, wo, eta)), env_seen(reflect(-wo, n)),
-             share);
+  return mix(tint * env_seen(glass_exit(n, t, wo, eta)),
+             env_seen(reflect(-wo, n)), share);
 }

@@ -13,13 +13,13 @@ vec3 matter_direct(matter m, vec3 n, vec3 wo, vec3 wi) {
   float cos_i = dot(n, wi), a = m.roughness * m.roughness;
   if (!(cos_i > 0.0)) return vec3(0.0);
   vec3 f0 = mix(vec3(0.04), m.kd, m.metallic);
-  vec3 kd = m.kd * (1.0 - m.metallic), share = 1.0 - min(m.tf, vec3(1.0));
+  vec3 kd = m.kd * (1.0 - m.metallic);
   float ns = max(2.0 / (a * a) - 2.0, 0.0);
   if (!(ns < 1e8))
-    return share * (1.0 - coat_fresnel(f0, dot(n, wo))) * kd / PI * cos_i;
+    return (1.0 - coat_fresnel(f0, dot(n, wo))) * kd / PI * cos_i;
   vec3 h = normalize(wo + wi);
   vec3 f = kd * (1.0 - f0) / PI;
-  return share * cos_i * (f + f0 * coat_norm(ns) * cosine_power(n, h, ns));
+  return cos_i * (f + f0 * coat_norm(ns) * cosine_power(n, h, ns));
 }
 
 vec3 matter_ambient(matter m, vec3 n, vec3 wo) {

@@ -10,7 +10,6 @@ void main() {
   vec3 ng = side * at_facet, n = normal_face(side * normal_at(), wo);
   matter m = matter_at();
   vec3 sum = matter_ambient(m, n, wo);
-  if (gl_FrontFacing) sum += matter_emission();
 #if LIGHTS > 0
   for (int i = 0; i < LIGHTS; i++) {
     vec3 power, wi = light_at(i, at_position, power);
@@ -19,5 +18,10 @@ void main() {
       sum += f * power * light_reaches(i, at_position, ng);
   }
 #endif
+#ifdef KIND_METAL_ROUGH
+  vec3 through = min(m.tf, vec3(1.0));
+  sum = mix(sum, glass_seen(m, n, wo, m.kd), through);
+#endif
+  if (gl_FrontFacing) sum += matter_emission();
   out_color = vec4(sum, matter_opacity());
 }

@@ -38,7 +38,7 @@ static const char *const KIND_FILES[] = {
     [MATERIAL_BLINN_PHONG] = "blinn_phong.glsl",
     [MATERIAL_METAL_ROUGH] = "metal_rough.glsl",
     [MATERIAL_MIRROR] = "mirror.glsl",
-    [MATERIAL_GLASS] = "glass.glsl"};
+    [MATERIAL_GLASS] = "clear.glsl"};
 
 static const char *or_nothing(const char *text) {
   return text == NULL ? "" : text;
@@ -106,6 +106,7 @@ static void surface_parts(glsl_spec *spec, const raster_programs *p,
     add_part(parts, "first.frag");
     return;
   }
+  add_part(parts, "glass.glsl");
   if (v.kind == MATERIAL_METAL_ROUGH)
     add_piece(parts, &p->set->metal_rough, KIND_FILES[v.kind]);
   else
