@@ -7,6 +7,7 @@
 
 #include "cpu_quota.h"
 
+#include <assert.h>
 #include <pthread.h>
 #include <sched.h>
 #include <signal.h>
@@ -122,13 +123,10 @@ void pool_free(pool *p) {
   pthread_mutex_destroy(&p->lock);
 }
 
-void pool_run(pool *p, size_t items, pool_work work, void *context) {
-  if (p == NULL || p->helper_count == 0 || items <= 1) {
-    for (size_t i = 0; i < items; i++)
-      work(context, i, 0);
-    return;
-  }
+// Set all helpers to work.
+static void begin_round(pool *p, size_t items, pool_work work, void *context) {
   pthread_mutex_lock(&p->lock);
+  assert(p->busy == 0);
   p->work = work;
   p->context = context;
   p->items = items;
@@ -137,7 +135,38 @@ void pool_run(pool *p, size_t items, pool_work work, void *context) {
   p->round++;
   pthread_cond_broadcast(&p->start);
   pthread_mutex_unlock(&p->lock);
+}
+
+void pool_run(pool *p, size_t items, pool_work work, void *context) {
+  if (p == NULL || p->helper_count == 0 || items <= 1) {
+    for (size_t i = 0; i < items; i++)
+      work(context, i, 0);
+    return;
+  }
+  begin_round(p, items, work, context);
   drain(p, 0);
+  pool_wait(p);
+}
+
+void pool_start(pool *p, size_t items, pool_work work, void *context) {
+  if (p->helper_count > 0)
+    begin_round(p, items, work, context);
+  else
+    pool_run(p, items, work, context);
+}
+
+bool pool_done(pool *p) {
+  pthread_mutex_lock(&p->lock);
+  bool done = p->busy == 0;
+  pthread_mutex_unlock(&p->lock);
+  return done;
+}
+
+void pool_cancel(pool *p) {
+  atomic_store(&p->next, p->items);
+}
+
+void pool_wait(pool *p) {
   pthread_mutex_lock(&p->lock);
   while (p->busy > 0)
     pthread_cond_wait(&p->done, &p->lock);

@@ -26,4 +26,18 @@ void pool_free(pool *p);
 // alone.
 void pool_run(pool *p, size_t items, pool_work work, void *context);
 
+// The same without waiting: workers 1 and up do it while the caller goes on.
+// A pool of one does it all before it returns.  Nothing else may be started
+// until pool_done has said true or pool_wait has returned.
+void pool_start(pool *p, size_t items, pool_work work, void *context);
+
+// Whether what was started has ended; its results are then seen by the caller.
+bool pool_done(pool *p);
+
+// Let no worker take another item of what was started.
+void pool_cancel(pool *p);
+
+// Wait until what was started has ended.
+void pool_wait(pool *p);
+
 #endif
