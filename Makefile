@@ -42,12 +42,13 @@ CHAPTER_6 := $(CHAPTER_5) microfacet dfg bsdf_rough
 CHAPTER_7 := $(CHAPTER_6) ibl raster_env
 CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
 CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_naive film render
-CHAPTER_14 := $(CHAPTER_9) post view
+CHAPTER_14 := $(CHAPTER_9) post view_state view_script view_paths view_window
 LIBRARY   := $(CHAPTER_14)
 CHAPTERS  := 1 2 3 4 8 9 17
 # The command line, the only floor that prints and exits.
 COMMAND   := json tonemap progress option_table option cmd_shared cmd_signals \
-             cmd_output cmd_shot cmd_raster cmd_render cmd_info_scene cmd_info cmd_compare cmd_bench \
+             cmd_output cmd_shot cmd_raster cmd_render cmd_info_scene \
+             cmd_info cmd_compare cmd_bench cmd_bench_raster \
              cmd_help main
 MODULES   := $(LIBRARY) $(COMMAND)
 CHAPTER_17 := $(filter-out main,$(MODULES))

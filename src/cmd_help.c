@@ -79,12 +79,14 @@ void cmd_print_overview(FILE *out) {
     int at = fprintf(out, "  facet %s %s", c->name, c->operands);
     fprintf(out, "%*s%s\n", at < 30 ? 30 - at : 1, "", c->summary);
   }
-  fputs("  facet --version             print the version\n"
-        "\n"
-        "'facet help render' explains the options of render.\n"
-        "Exit status: 0 done, 1 the answer is no, 2 usage, 3 input, 4 output,\n"
-        "5 out of memory, 75 stopped early with the picture so far written.\n",
-        out);
+  fputs(
+      "  facet --version             print the version\n"
+      "\n"
+      "'facet help render' explains the options of render.\n"
+      "Exit status: 0 done, 1 the answer is no, 2 usage, 3 input, 4 output,\n"
+      "5 out of memory or no OpenGL, 75 stopped early with the picture so far\n"
+      "written.\n",
+      out);
 }
 
 // A text of the manual page: - and \ escaped, so that options can be copied.
@@ -130,11 +132,16 @@ static void print_manual(FILE *out) {
   fputs(
       ".SH EXIT STATUS\n"
       "0 done; 1 finished, but the answer is no; 2 usage; 3 input missing or\n"
-      "malformed; 4 output could not be written; 5 out of memory; 75 stopped\n"
-      "early, the picture so far is written; 128+n ended by signal n.\n"
+      "malformed; 4 output could not be written; 5 out of memory, or no "
+      "OpenGL\n"
+      "for the raster engine; 75 stopped early, the picture so far is "
+      "written;\n"
+      "128+n ended by signal n.\n"
       ".SH ENVIRONMENT\n"
       "NO_COLOR and TERM=dumb turn colours off.  COLUMNS is the width of the\n"
-      "progress bar's line.  SLURM_CPUS_PER_TASK limits the threads.\n",
+      "progress bar's line.  SLURM_CPUS_PER_TASK limits the threads.  Mesa's\n"
+      "software renderer draws with LP_NUM_THREADS threads, facet's number\n"
+      "where that is not set.\n",
       out);
 }
 

@@ -15,7 +15,7 @@ enum {
   EXIT_USAGE = 2,      // the command line is wrong
   EXIT_INPUT = 3,      // input missing or malformed
   EXIT_OUTPUT = 4,     // output could not be written
-  EXIT_RESOURCES = 5,  // memory
+  EXIT_RESOURCES = 5,  // no memory, no OpenGL
   EXIT_EARLY = 75      // stopped by a signal, the picture so far is written
 };
 
@@ -51,6 +51,7 @@ int cmd_info(const options *o);
 int cmd_compare(const options *o);
 int cmd_bench_load(const options *o);
 int cmd_bench_rays(const options *o);
+int cmd_bench_raster(const options *o);
 int cmd_help(const options *o);
 
 // What `facet help` prints, to out.

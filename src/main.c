@@ -21,6 +21,7 @@ static int run_command(const options *o) {
   case CMD_COMPARE: return cmd_compare(o);
   case CMD_BENCH_LOAD: return cmd_bench_load(o);
   case CMD_BENCH_RAYS: return cmd_bench_rays(o);
+  case CMD_BENCH_RASTER: return cmd_bench_raster(o);
   default: return cmd_help(o);
   }
 }

@@ -80,7 +80,8 @@ static bool bad_number(const option_value *v, const option *o, error *err) {
 // Numbers separated by commas (or by x, for a size), exactly n of them.
 static bool find_numbers(option_value *v, const option *o, int n, error *err) {
   span rest = span_of(v->text);
-  char separator = o->kind == OPTION_SIZE ? 'x' : ',';
+  bool size = o->kind == OPTION_SIZE || o->kind == OPTION_SIZES;
+  char separator = size ? 'x' : ',';
   bool real = o->kind == OPTION_NUMBER || o->kind == OPTION_TRIPLE;
   for (int i = 0; i < n; i++) {
     // The last number takes all that is left, with whatever is too much.
@@ -109,6 +110,37 @@ static bool find_words(option_value *v, const option *o, error *err) {
   return true;
 }
 
+// Sizes separated by commas: all are read, the last one stays.
+static bool find_sizes(option_value *v, const option *o, error *err) {
+  const char *whole = v->text;
+  bool ok = true;
+  for (const char *at = whole; ok && at != NULL;) {
+    char one[32];
+    const char *comma = strchr(at, ',');
+    int n = (int)(comma != NULL ? comma - at : (ptrdiff_t)strlen(at));
+    snprintf(one, sizeof one, "%.*s", n, at);
+    v->text = one;
+    ok = find_numbers(v, o, 2, err);
+    at = comma != NULL ? comma + 1 : NULL;
+  }
+  v->text = whole;
+  return ok;
+}
+
+bool option_size(const option_value *v, unsigned i, int *width, int *height) {
+  span rest = span_of(v->text), size = {0};
+  for (unsigned k = 0; k <= i; k++) {
+    if (rest.length == 0) return false;
+    size = split_off(&rest, ',');
+  }
+  span first = split_off(&size, 'x');
+  long long w, h;
+  if (!span_int(first, &w) || !span_int(size, &h)) return false;
+  *width = (int)w;
+  *height = (int)h;
+  return true;
+}
+
 // Read v->text as the option's kind says.
 static bool read_value(option_value *v, const option *o, error *err) {
   switch (o->kind) {
@@ -119,6 +151,7 @@ static bool read_value(option_value *v, const option *o, error *err) {
   case OPTION_WHOLE:
   case OPTION_NUMBER: return find_numbers(v, o, 1, err);
   case OPTION_SIZE: return find_numbers(v, o, 2, err);
+  case OPTION_SIZES: return find_sizes(v, o, err);
   case OPTION_TRIPLE: return find_numbers(v, o, 3, err);
   case OPTION_BOX: return find_numbers(v, o, 4, err);
   }
@@ -237,7 +270,8 @@ static void unknown_command(const char *first, const char *both, error *err) {
   if (is_later(span_of(said)))
     fail(err, "%s: not in this version of facet", said);
   else if (half)
-    fail(err, "bench what? There are 'bench load' and 'bench rays'");
+    fail(err,
+         "bench what? There are 'bench load', 'bench rays' and 'bench raster'");
   else if (dot != NULL && (!strcmp(dot, ".obj") || !strcmp(dot, ".scene")))
     fail(err, "unknown command '%s'; to make a picture: facet render %s", said,
          said);

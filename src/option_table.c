@@ -4,6 +4,9 @@
 
 #include <stddef.h>
 
+// The commands that draw a scene.
+enum { DRAWS = CMD_RENDER | CMD_BENCH_RASTER };
+
 const command command_table[] = {
     {"render", CMD_RENDER, "SCENE", 1, 1, "make one picture",
      "SCENE is an .obj, a .scene, or - for an OBJ on standard input.  A .scene "
@@ -35,6 +38,11 @@ const command command_table[] = {
      "file holds \"HITS\", flags, count, and for each ray a float t and an i32 "
      "triangle in OBJ order, -1 for a miss, whose t is tmax; where any hit "
      "will do, t is tmax and the triangle 0 for a hit."},
+    {"bench raster", CMD_BENCH_RASTER, "SCENE", 1, 1, "time the raster engine",
+     "For each size, --frames frames of the scene without its sky, one after "
+     "another, until the last is finished.  Then the cost of each pass of a "
+     "frame, the median of --repeat: shadow maps, surfaces, sky, and what it "
+     "takes to read the picture back."},
     {"help", CMD_HELP, "[COMMAND]", 0, 2, "explain facet or a command", NULL},
     {0},
 };
@@ -54,6 +62,10 @@ const option option_table[OPTION_COUNT] = {
          65535,
          .help = "width and height in pixels; a scene file's film line "
                  "comes before the default"},
+    [OPT_RESOLUTIONS] = {"resolution", 'r', CMD_BENCH_RASTER, OPTION_SIZES,
+                         "WxH,...", "480x270,960x540,1920x1080", 1, 65535,
+                         .help =
+                             "widths and heights in pixels, split at commas"},
     [OPT_CROP] =
         {"crop", 0, CMD_RENDER, OPTION_BOX, "X0,Y0,X1,Y1", NULL, 0, 65535,
          .help = "render only these pixels of the full picture, half-open, "
@@ -64,46 +76,59 @@ const option option_table[OPTION_COUNT] = {
          .help =
              "also write these, or some of them, as linear PFM files beside "
              "the output: NAME.normal.pfm beside NAME.png"},
-    [OPT_ENGINE] = {"engine", 0, CMD_RENDER, OPTION_WORD, "auto|path", "auto",
-                    .help = "how light is computed"},
-    [OPT_SHADING] = {"shading", 0, CMD_RENDER, OPTION_WORD,
+    [OPT_ENGINE] = {"engine", 0, CMD_RENDER, OPTION_WORD, "raster|path|auto",
+                    "raster",
+                    .help =
+                        "raster: by OpenGL, in an instant, light from lamps "
+                        "and sky; path: light along all ways, slowly; auto: "
+                        "raster where it can, else path"},
+    [OPT_GL] = {"gl", 0, DRAWS, OPTION_WORD, "auto|osmesa|egl", "auto",
+                .help = "the library that the raster engine draws with; auto "
+                        "tries them in this order"},
+    [OPT_SHADING] = {"shading", 0, DRAWS, OPTION_WORD,
                      "auto|blinn-phong|pbr|normal|depth|albedo", "auto",
                      .help = "auto: each material by its own model"},
-    [OPT_CAMERA] = {"camera", 0, CMD_RENDER, OPTION_TEXT, "NAME",
+    [OPT_PBR_MODEL] = {"pbr-model", 0, DRAWS, OPTION_WORD, "ggx|report", "ggx",
+                       .help = "formulas of metallic-roughness: those that "
+                               "keep all light, or the course report's"},
+    [OPT_CAMERA] = {"camera", 0, DRAWS, OPTION_TEXT, "NAME",
                     .help =
                         "a camera of the scene file (default: the first, else "
                         "framed from the bounding box)"},
-    [OPT_EYE] = {"eye", 0, CMD_RENDER, OPTION_TRIPLE, "X,Y,Z",
+    [OPT_EYE] = {"eye", 0, DRAWS, OPTION_TRIPLE, "X,Y,Z",
                  .help = "where the camera is"},
-    [OPT_TARGET] = {"target", 0, CMD_RENDER, OPTION_TRIPLE, "X,Y,Z",
+    [OPT_TARGET] = {"target", 0, DRAWS, OPTION_TRIPLE, "X,Y,Z",
                     .help = "the point in the middle of the picture"},
-    [OPT_UP] = {"up", 0, CMD_RENDER, OPTION_TRIPLE, "X,Y,Z",
+    [OPT_UP] = {"up", 0, DRAWS, OPTION_TRIPLE, "X,Y,Z",
                 .help = "the direction that is up in the picture"},
-    [OPT_FOV] = {"fov", 0, CMD_RENDER, OPTION_NUMBER, "DEG", NULL, 0, 180, true,
+    [OPT_FOV] = {"fov", 0, DRAWS, OPTION_NUMBER, "DEG", NULL, 0, 180, true,
                  "vertical field of view"},
-    [OPT_UP_AXIS] = {"up-axis", 0, CMD_RENDER | CMD_INFO, OPTION_WORD, "Y|Z",
-                     "Y", .help = "the axis that is up in the OBJ"},
+    [OPT_UP_AXIS] = {"up-axis", 0, DRAWS | CMD_INFO, OPTION_WORD, "Y|Z", "Y",
+                     .help = "the axis that is up in the OBJ"},
     [OPT_ENV] =
-        {"env", 0, CMD_RENDER, OPTION_TEXT, "FILE|R,G,B|none",
+        {"env", 0, DRAWS, OPTION_TEXT, "FILE|R,G,B|none",
          .help = "the light from everywhere: an equirectangular picture, a "
                  "constant radiance, or darkness (default: the scene file's, "
                  "else a built-in sky)"},
-    [OPT_ENV_ROTATE] = {"env-rotate", 0, CMD_RENDER, OPTION_NUMBER, "DEG", NULL,
+    [OPT_ENV_ROTATE] = {"env-rotate", 0, DRAWS, OPTION_NUMBER, "DEG", NULL,
                         -1e6, 1e6, .help = "turn it about the vertical"},
-    [OPT_ENV_SCALE] = {"env-scale", 0, CMD_RENDER, OPTION_NUMBER, "S", NULL, 0,
-                       1e9, .help = "multiply it"},
-    [OPT_LIGHTS] = {"lights", 0, CMD_RENDER, OPTION_WORD, "on|off", "on",
+    [OPT_ENV_SCALE] = {"env-scale", 0, DRAWS, OPTION_NUMBER, "S", NULL, 0, 1e9,
+                       .help = "multiply it"},
+    [OPT_LIGHTS] = {"lights", 0, DRAWS, OPTION_WORD, "on|off", "on",
                     .help = "point and directional lights of the scene"},
+    [OPT_SHADOWS] = {"shadows", 0, DRAWS, OPTION_WORD, "on|off", "on",
+                     .help = "of these lights, in the raster engine"},
+    [OPT_MSAA] = {"msaa", 0, DRAWS, OPTION_WHOLE, "N", "4", 1, 64,
+                  .help = "samples a pixel of the raster engine, as many as "
+                          "the driver can"},
     [OPT_NORMALS] =
-        {"normals", 0, CMD_RENDER | CMD_BENCH_LOAD, OPTION_WORD,
+        {"normals", 0, DRAWS | CMD_BENCH_LOAD, OPTION_WORD,
          "auto|file|smooth|flat", "auto",
          .help = "auto: the file's, else by smoothing groups, else flat"},
-    [OPT_CREASE] = {"crease", 0, CMD_RENDER | CMD_BENCH_LOAD, OPTION_NUMBER,
-                    "DEG", "180", 0, 180,
-                    .help =
-                        "faces that differ by more are not smoothed together"},
-    [OPT_NO_NAME_RULES] = {"no-name-rules", 0, CMD_RENDER | CMD_INFO,
-                           OPTION_SWITCH,
+    [OPT_CREASE] =
+        {"crease", 0, DRAWS | CMD_BENCH_LOAD, OPTION_NUMBER, "DEG", "180", 0,
+         180, .help = "faces that differ by more are not smoothed together"},
+    [OPT_NO_NAME_RULES] = {"no-name-rules", 0, DRAWS | CMD_INFO, OPTION_SWITCH,
                            .help =
                                "names such as glass or mirror decide nothing"},
     [OPT_SPP] = {"spp", 0, CMD_RENDER, OPTION_WHOLE, "N", "64", 1, 1 << 24,
@@ -162,14 +187,19 @@ const option option_table[OPTION_COUNT] = {
                   .help = "trace the rays of a file instead"},
     [OPT_HITS] = {"hits", 0, CMD_BENCH_RAYS, OPTION_TEXT, "FILE",
                   .help = "write what they hit"},
-    [OPT_REPEAT] = {"repeat", 0, CMD_BENCH_LOAD | CMD_BENCH_RAYS, OPTION_WHOLE,
-                    "K", "5", 1, 1000, .help = "runs; the median counts"},
+    [OPT_REPEAT] = {"repeat", 0,
+                    CMD_BENCH_LOAD | CMD_BENCH_RAYS | CMD_BENCH_RASTER,
+                    OPTION_WHOLE, "K", "5", 1, 1000,
+                    .help = "runs; the median counts"},
+    [OPT_FRAMES] = {"frames", 0, CMD_BENCH_RASTER, OPTION_WHOLE, "N", "1000", 1,
+                    1000000, .help = "frames to draw at each size"},
+    [OPT_CSV] = {"csv", 0, CMD_BENCH_RASTER, OPTION_SWITCH,
+                 .help = "print lines of comma-separated values"},
     [OPT_MAN] = {"man", 0, CMD_HELP, OPTION_SWITCH,
                  .help = "print the manual page, for man -l -"},
     [OPT_THREADS] =
-        {"threads", 'j',
-         CMD_RENDER | CMD_INFO | CMD_BENCH_LOAD | CMD_BENCH_RAYS, OPTION_WHOLE,
-         "N", NULL, 1, 1024,
+        {"threads", 'j', CMD_ALL & ~(CMD_COMPARE | CMD_HELP), OPTION_WHOLE, "N",
+         NULL, 1, 1024,
          .help = "worker threads (default: what CPU affinity, the cgroup's "
                  "quota and SLURM_CPUS_PER_TASK allow)"},
     [OPT_STRICT] =
@@ -177,9 +207,9 @@ const option option_table[OPTION_COUNT] = {
          .help = "a warning is an error: exit status 1, nothing written"},
     [OPT_JSON] = {"json", 0, CMD_ALL & ~CMD_HELP, OPTION_SWITCH,
                   .help = "print one JSON object on standard output"},
-    [OPT_QUIET] = {"quiet", 'q', CMD_RENDER | CMD_COMPARE, OPTION_SWITCH,
+    [OPT_QUIET] = {"quiet", 'q', DRAWS | CMD_COMPARE, OPTION_SWITCH,
                    .help = "print errors only"},
-    [OPT_VERBOSE] = {"verbose", 'v', CMD_RENDER | CMD_INFO, OPTION_SWITCH,
+    [OPT_VERBOSE] = {"verbose", 'v', DRAWS | CMD_INFO, OPTION_SWITCH,
                      .help = "print notes, too"},
     [OPT_NO_COLOR] = {"no-color", 0, CMD_ALL, OPTION_SWITCH,
                       .help = "no colours on a terminal, as with NO_COLOR set"},
@@ -188,9 +218,8 @@ const option option_table[OPTION_COUNT] = {
 };
 
 const char *const later_words[] = {
-    "view",      "ibl",    "merge",     "bench error", "bench raster",
-    "bench ibl", "raster", "wide",      "mis",         "sobol",
-    "gl",        "msaa",   "post",      "checkpoint",  "every",
-    "resume",    "shard",  "pbr-model", "explain",     ".exr",
-    ".part",     "exr",    "part",      NULL,
+    "view",  "ibl",    "merge", "bench error", "bench ibl",
+    "wide",  "mis",    "sobol", "post",        "checkpoint",
+    "every", "resume", "shard", "explain",     ".exr",
+    ".part", "exr",    "part",  NULL,
 };

@@ -12,8 +12,9 @@ enum {
   CMD_COMPARE = 4,
   CMD_BENCH_LOAD = 8,
   CMD_BENCH_RAYS = 16,
-  CMD_HELP = 32,
-  CMD_ALL = 63
+  CMD_BENCH_RASTER = 32,
+  CMD_HELP = 64,
+  CMD_ALL = 127
 };
 
 // A command: its one or two words, and what it wants after the options.
@@ -36,6 +37,7 @@ typedef enum option_kind {
   OPTION_NUMBER,  // a number, low..high
   OPTION_TRIPLE,  // X,Y,Z
   OPTION_SIZE,    // WxH, whole
+  OPTION_SIZES,   // some of them, split at commas
   OPTION_BOX      // X0,Y0,X1,Y1, whole
 } option_kind;
 
@@ -58,10 +60,13 @@ typedef enum option_id {
   OPT_FORMAT,
   OPT_DEPTH,
   OPT_RESOLUTION,
+  OPT_RESOLUTIONS,
   OPT_CROP,
   OPT_AOV,
   OPT_ENGINE,
+  OPT_GL,
   OPT_SHADING,
+  OPT_PBR_MODEL,
   OPT_CAMERA,
   OPT_EYE,
   OPT_TARGET,
@@ -72,6 +77,8 @@ typedef enum option_id {
   OPT_ENV_ROTATE,
   OPT_ENV_SCALE,
   OPT_LIGHTS,
+  OPT_SHADOWS,
+  OPT_MSAA,
   OPT_NORMALS,
   OPT_CREASE,
   OPT_NO_NAME_RULES,
@@ -94,6 +101,8 @@ typedef enum option_id {
   OPT_RAYS,
   OPT_HITS,
   OPT_REPEAT,
+  OPT_FRAMES,
+  OPT_CSV,
   OPT_MAN,
   OPT_THREADS,
   OPT_STRICT,

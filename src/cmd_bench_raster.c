@@ -1,0 +1,205 @@
+// cmd_bench_raster.c — facet bench raster: frames, one after another.
+
+#include "cmd_raster.h"
+
+#include "clock.h"
+
+// What one frame costs by pass, in milliseconds: the median of some frames,
+// each finished before the next.
+typedef struct pass_times {
+  double shadow;   // to draw all shadow maps again
+  double surface;  // the surfaces, and the samples of each pixel to one colour
+  double sky;      // what the sky adds to that
+  double read;     // the picture, back to where files are written from
+} pass_times;
+
+// One line of the table.
+typedef struct bench_line {
+  int width, height;
+  double seconds;  // for all frames
+  pass_times passes;
+} bench_line;
+
+typedef struct bench_raster {
+  shot shot;
+  raster_job job;
+  long long frames;
+  size_t repeat;
+  double *samples;  // repeat of them
+} bench_raster;
+
+// The frames of the table: none waits for the one before it.
+static bool draw_frames(bench_raster *b, bench_line *line, error *err) {
+  double start = clock_seconds();
+  for (long long k = 0; k < b->frames; k++)
+    if (!raster_draw(b->job.r, &b->shot.view, err)) return false;
+  line->seconds = clock_seconds() - start;
+  return true;
+}
+
+// Draw `repeat` frames and store the median of one of their times.  With
+// `again` the shadow maps are drawn for each frame.
+static bool measure(double *ms, bench_raster *b, bool again, error *err) {
+  for (size_t k = 0; k < b->repeat; k++) {
+    if (again) {
+      raster_hide(b->job.r, 0, true);
+      raster_hide(b->job.r, 0, false);
+    }
+    if (!raster_draw(b->job.r, &b->shot.view, err)) return false;
+    raster_times t = raster_last_times(b->job.r);
+    b->samples[k] = again ? t.shadow : t.draw;
+  }
+  *ms = 1000 * cmd_median(b->samples, b->repeat);
+  return true;
+}
+
+// The passes, by what a frame takes with and without them.
+static bool measure_passes(bench_raster *b, pass_times *p, error *err) {
+  raster_settings with_sky = b->job.settings;
+  with_sky.sky = true;
+  double with;
+  if (!measure(&p->shadow, b, true, err) ||
+      !measure(&p->surface, b, false, err) ||
+      !raster_change(b->job.r, &with_sky, err) ||
+      !measure(&with, b, false, err))
+    return false;
+  p->sky = with - p->surface;
+  for (size_t k = 0; k < b->repeat; k++) {
+    arena once = {0};
+    raster_read(b->job.r, &once);
+    b->samples[k] = raster_last_times(b->job.r).read;
+    arena_free(&once);
+  }
+  p->read = 1000 * cmd_median(b->samples, b->repeat);
+  return true;
+}
+
+// One size: everything is made anew.  The first frames bring code generation
+// and are not counted.
+static int measure_size(bench_raster *b, bench_line *line) {
+  error err;
+  int code = shot_resize(&b->shot, line->width, line->height);
+  if (code != EXIT_DONE) return code;
+  arena once = {0};
+  double warm;
+  b->job.settings = raster_job_settings(&b->shot);
+  b->job.settings.sky = false;
+  bool ok = raster_job_upload(&b->job, &b->shot, &once, &err) &&
+            measure(&warm, b, false, &err) && draw_frames(b, line, &err) &&
+            measure_passes(b, &line->passes, &err);
+  if (b->job.r != NULL) raster_free(b->job.r);
+  b->job.r = NULL;
+  arena_free(&once);
+  return ok ? EXIT_DONE : cmd_fail(b->shot.o, EXIT_RESOURCES, "%s", err.text);
+}
+
+// Milliseconds a frame.
+static double ms_per_frame(const bench_raster *b, const bench_line *l) {
+  return 1000 * l->seconds / (double)b->frames;
+}
+
+// For people.
+static void print_frames_table(const bench_raster *b, const bench_line *lines,
+                               size_t n) {
+  printf("%s: %zu triangles, %s, %s, msaa %d, %lld frames\n",
+         b->shot.o->operands[0], b->shot.scene.mesh.triangle_count,
+         gl_backend_name(b->job.g), gl_renderer(b->job.g), b->job.settings.msaa,
+         b->frames);
+  printf("%-11s %9s %9s %9s   of a frame, ms: %8s %8s %8s %8s\n", "size",
+         "seconds", "ms/frame", "frames/s", "shadows", "surfaces", "sky",
+         "read");
+  for (size_t i = 0; i < n; i++) {
+    const bench_line *l = &lines[i];
+    char size[32];
+    snprintf(size, sizeof size, "%dx%d", l->width, l->height);
+    printf("%-11s %9.3f %9.3f %9.1f %24.3f %8.3f %8.3f %8.3f\n", size,
+           l->seconds, ms_per_frame(b, l), 1000 / ms_per_frame(b, l),
+           l->passes.shadow, l->passes.surface, l->passes.sky, l->passes.read);
+  }
+}
+
+// For spreadsheets.
+static void print_frames_csv(const bench_raster *b, const bench_line *lines,
+                             size_t n) {
+  puts("width,height,frames,seconds,ms_per_frame,shadow_ms,surface_ms,sky_ms,"
+       "read_ms");
+  for (size_t i = 0; i < n; i++) {
+    const bench_line *l = &lines[i];
+    printf("%d,%d,%lld,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f\n", l->width, l->height,
+           b->frames, l->seconds, ms_per_frame(b, l), l->passes.shadow,
+           l->passes.surface, l->passes.sky, l->passes.read);
+  }
+}
+
+// For programs.
+static void print_frames_json(const bench_raster *b, const bench_line *lines,
+                              size_t n) {
+  json j = {.out = stdout};
+  json_open(&j, NULL, '{');
+  json_text(&j, "file", b->shot.o->operands[0]);
+  json_count(&j, "triangles", b->shot.scene.mesh.triangle_count);
+  json_count(&j, "frames", (unsigned long long)b->frames);
+  json_count(&j, "threads", (unsigned long long)pool_threads(b->shot.threads));
+  raster_job_json(&j, &b->job);
+  json_open(&j, "sizes", '[');
+  for (size_t i = 0; i < n; i++) {
+    const bench_line *l = &lines[i];
+    json_open(&j, NULL, '{');
+    json_count(&j, "width", (unsigned long long)l->width);
+    json_count(&j, "height", (unsigned long long)l->height);
+    json_number(&j, "seconds", l->seconds);
+    json_number(&j, "ms_per_frame", ms_per_frame(b, l));
+    json_number(&j, "shadow_ms", l->passes.shadow);
+    json_number(&j, "surface_ms", l->passes.surface);
+    json_number(&j, "sky_ms", l->passes.sky);
+    json_number(&j, "read_ms", l->passes.read);
+    json_close(&j, '{');
+  }
+  json_close(&j, '[');
+  json_close(&j, '{');
+  json_end(&j);
+}
+
+// Everything once the pool is there.
+static int run_bench_raster(bench_raster *b) {
+  const options *o = b->shot.o;
+  error err;
+  int code = shot_read(&b->shot);
+  if (code == EXIT_DONE) code = shot_remark(&b->shot);
+  if (code != EXIT_DONE) return code;
+  if (!raster_job_open(&b->job, o, b->shot.mem, &err))
+    return cmd_fail(o, EXIT_RESOURCES, "%s", err.text);
+  b->frames = o->value[OPT_FRAMES].whole[0];
+  b->repeat = (size_t)o->value[OPT_REPEAT].whole[0];
+  b->samples = ARENA_NEW(b->shot.mem, double, b->repeat);
+  const option_value *sizes = &o->value[OPT_RESOLUTIONS];
+  bench_line line = {0};
+  size_t n = 0;
+  while (option_size(sizes, (unsigned)n, &line.width, &line.height))
+    n++;
+  bench_line *lines = ARENA_NEW(b->shot.mem, bench_line, n);
+  for (size_t i = 0; i < n && code == EXIT_DONE; i++) {
+    option_size(sizes, (unsigned)i, &lines[i].width, &lines[i].height);
+    code = measure_size(b, &lines[i]);
+  }
+  if (code != EXIT_DONE) return code;
+  if (o->value[OPT_JSON].given)
+    print_frames_json(b, lines, n);
+  else if (o->value[OPT_CSV].given)
+    print_frames_csv(b, lines, n);
+  else
+    print_frames_table(b, lines, n);
+  return EXIT_DONE;
+}
+
+int cmd_bench_raster(const options *o) {
+  arena mem = {0};
+  bench_raster b = {0};
+  b.shot = (shot){.o = o, .mem = &mem, .remarks = {.mem = &mem}};
+  b.shot.threads = pool_new(&mem, cmd_threads(o));
+  int code = run_bench_raster(&b);
+  raster_job_close(&b.job);
+  pool_free(b.shot.threads);
+  arena_free(&mem);
+  return code;
+}

@@ -1,0 +1,99 @@
+// cmd_raster.c
+
+#include "cmd_raster.h"
+
+#include "clock.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+// Mesa's software renderer starts a thread for every CPU that it sees and
+// knows nothing of quotas and -j.  Whoever has set the variable keeps it.
+static void limit_threads(const options *o) {
+  char threads[16];
+  snprintf(threads, sizeof threads, "%d", cmd_threads(o));
+  setenv("LP_NUM_THREADS", threads, 0);
+}
+
+bool raster_job_open(raster_job *job, const options *o, arena *mem,
+                     error *err) {
+  double start = clock_seconds();
+  limit_threads(o);
+  // The words of --gl are in the order of gl_backend.
+  if (!gl_open(&job->g, (gl_backend)o->value[OPT_GL].words, mem, err))
+    return false;
+  job->gl_seconds = clock_seconds() - start;
+  return true;
+}
+
+raster_settings raster_job_settings(const shot *s) {
+  const option_value *v = s->o->value;
+  static const raster_shading shadings[] = {RASTER_RADIANCE, RASTER_RADIANCE,
+                                            RASTER_RADIANCE, RASTER_NORMAL,
+                                            RASTER_DEPTH,    RASTER_ALBEDO};
+  return (raster_settings){
+      .width = s->width,
+      .height = s->height,
+      .x0 = s->x0,
+      .y0 = s->y0,
+      .x1 = s->x1,
+      .y1 = s->y1,
+      .msaa = (int)v[OPT_MSAA].whole[0],
+      .lights = v[OPT_LIGHTS].words == 0,
+      .shadows = v[OPT_SHADOWS].words == 0,
+      .sky = true,
+      .shading = shadings[v[OPT_SHADING].words],
+      .model = v[OPT_PBR_MODEL].words == 0 ? RASTER_GGX : RASTER_REPORT,
+  };
+}
+
+bool raster_job_upload(raster_job *job, const shot *s, arena *mem, error *err) {
+  return raster_new(&job->r, job->g, &s->scene, &job->settings, mem, err);
+}
+
+// Zero the pixels that are not finite; how many there were, and the first.
+static void drop_non_finite(render_result *r, const shot *s) {
+  image *im = &r->color;
+  for (int y = 0; y < im->height; y++)
+    for (int x = 0; x < im->width; x++) {
+      vec3 *p = &im->pixels[(size_t)y * (size_t)im->width + (size_t)x];
+      if (isfinite(p->x) && isfinite(p->y) && isfinite(p->z)) continue;
+      *p = (vec3){0};
+      if (r->non_finite++ > 0) continue;
+      r->bad_x = s->x0 + x;
+      r->bad_y = s->y0 + y;
+    }
+}
+
+bool raster_job_draw(render_result *out, raster_job *job, const shot *s,
+                     unsigned aovs, error *err) {
+  double start = clock_seconds();
+  *out = (render_result){0};
+  if (!raster_draw(job->r, &s->view, err)) return false;
+  out->color = raster_read(job->r, s->mem);
+  job->times = raster_last_times(job->r);
+  // The bits of normal, depth and albedo are in the order of raster_shading.
+  for (int i = 0; i < 3; i++)
+    if ((aovs >> i & 1) != 0 &&
+        !raster_read_aov(&out->aov[i], job->r,
+                         (raster_shading)(RASTER_NORMAL + i), s->mem, err))
+      return false;
+  drop_non_finite(out, s);
+  out->seconds = clock_seconds() - start;
+  return true;
+}
+
+void raster_job_json(json *j, const raster_job *job) {
+  json_count(j, "msaa", (unsigned long long)job->settings.msaa);
+  json_open(j, "gl", '{');
+  json_text(j, "backend", gl_backend_name(job->g));
+  json_text(j, "renderer", gl_renderer(job->g));
+  json_close(j, '{');
+}
+
+void raster_job_close(raster_job *job) {
+  if (job->r != NULL) raster_free(job->r);
+  gl_close(job->g);
+  *job = (raster_job){0};
+}

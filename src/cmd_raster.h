@@ -1,0 +1,40 @@
+// cmd_raster.h — a shot by the raster engine, for the commands that draw.
+
+#ifndef CMD_RASTER_H
+#define CMD_RASTER_H
+
+#include "cmd_shot.h"
+#include "raster.h"
+#include "render.h"
+
+typedef struct raster_job {
+  gl *g;  // NULL before raster_job_open
+  raster *r;
+  raster_settings settings;
+  raster_times times;
+  double gl_seconds;  // to open the context
+} raster_job;
+
+// Open the context that --gl asks for.  On failure (exit status 5) err names
+// the package that is missing, and job is as before.
+bool raster_job_open(raster_job *job, const options *o, arena *mem, error *err);
+
+// What the options say to the engine, for the shot's film.
+raster_settings raster_job_settings(const shot *s);
+
+// Upload the shot's scene, to be drawn by job->settings; exit status 5 on
+// failure.
+bool raster_job_upload(raster_job *job, const shot *s, arena *mem, error *err);
+
+// Draw the shot: the picture and those aovs (bits of render.h) that the
+// engine has.  Pixels that are not finite are set to 0 and counted.
+bool raster_job_draw(render_result *out, raster_job *job, const shot *s,
+                     unsigned aovs, error *err);
+
+// The members "gl", with the names of the context, and "msaa".
+void raster_job_json(json *j, const raster_job *job);
+
+// Release all of it; a job that is not open is fine.
+void raster_job_close(raster_job *job);
+
+#endif
