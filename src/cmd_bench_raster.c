@@ -4,12 +4,15 @@
 
 #include "clock.h"
 
+#include <stddef.h>
+
 // What one frame costs by pass, in milliseconds: the median of some frames,
 // each finished before the next.
 typedef struct pass_times {
   double shadow;   // to draw all shadow maps again
-  double surface;  // the surfaces, and the samples of each pixel to one colour
+  double surface;  // the surfaces
   double sky;      // what the sky adds to that
+  double resolve;  // the samples of each pixel, to one colour
   double read;     // the picture, back to where files are written from
 } pass_times;
 
@@ -32,7 +35,8 @@ typedef struct bench_raster {
 static bool draw_frames(bench_raster *b, bench_line *line, error *err) {
   double start = clock_seconds();
   for (long long k = 0; k < b->frames; k++)
-    if (!raster_draw(b->job.r, &b->shot.view, err)) return false;
+    if (!raster_draw_next(b->job.r, &b->shot.view, err)) return false;
+  raster_wait(b->job.r);
   line->seconds = clock_seconds() - start;
   return true;
 }
@@ -64,6 +68,10 @@ static bool measure_passes(bench_raster *b, pass_times *p, error *err) {
       !measure(&with, b, false, err))
     return false;
   p->sky = with - p->surface;
+  for (size_t k = 0; k < b->repeat; k++)
+    b->samples[k] = raster_resolve_seconds(b->job.r);
+  p->resolve = 1000 * cmd_median(b->samples, b->repeat);
+  p->surface -= p->resolve;
   for (size_t k = 0; k < b->repeat; k++) {
     arena once = {0};
     raster_read(b->job.r, &once);
@@ -98,6 +106,24 @@ static double ms_per_frame(const bench_raster *b, const bench_line *l) {
   return 1000 * l->seconds / (double)b->frames;
 }
 
+// The passes by name, and their places in pass_times.
+static const struct {
+  const char *name, *key;
+  size_t at;
+} pass_names[] = {
+    {"shadows", "shadow_ms", offsetof(pass_times, shadow)},
+    {"surfaces", "surface_ms", offsetof(pass_times, surface)},
+    {"sky", "sky_ms", offsetof(pass_times, sky)},
+    {"resolve", "resolve_ms", offsetof(pass_times, resolve)},
+    {"read", "read_ms", offsetof(pass_times, read)},
+};
+enum { PASSES = sizeof pass_names / sizeof *pass_names };
+
+// The milliseconds of one of them.
+static double pass_ms(const bench_line *l, int i) {
+  return *(const double *)((const char *)&l->passes + pass_names[i].at);
+}
+
 // For people.
 static void print_frames_table(const bench_raster *b, const bench_line *lines,
                                size_t n) {
@@ -105,29 +131,36 @@ static void print_frames_table(const bench_raster *b, const bench_line *lines,
          b->shot.o->operands[0], b->shot.scene.mesh.triangle_count,
          gl_backend_name(b->job.g), gl_renderer(b->job.g), b->job.settings.msaa,
          b->frames);
-  printf("%-11s %9s %9s %9s   of a frame, ms: %8s %8s %8s %8s\n", "size",
-         "seconds", "ms/frame", "frames/s", "shadows", "surfaces", "sky",
-         "read");
+  printf("%-10s %9s %9s %9s  ", "", "seconds", "ms/frame", "frames/s");
+  for (int i = 0; i < PASSES; i++)
+    printf(" %8s", pass_names[i].name);
+  puts(" (ms)");
   for (size_t i = 0; i < n; i++) {
     const bench_line *l = &lines[i];
+    double ms = ms_per_frame(b, l);
     char size[32];
     snprintf(size, sizeof size, "%dx%d", l->width, l->height);
-    printf("%-11s %9.3f %9.3f %9.1f %24.3f %8.3f %8.3f %8.3f\n", size,
-           l->seconds, ms_per_frame(b, l), 1000 / ms_per_frame(b, l),
-           l->passes.shadow, l->passes.surface, l->passes.sky, l->passes.read);
+    printf("%-10s %9.3f %9.3f %9.1f  ", size, l->seconds, ms, 1000 / ms);
+    for (int k = 0; k < PASSES; k++)
+      printf(" %8.3f", pass_ms(l, k));
+    putchar('\n');
   }
 }
 
 // For spreadsheets.
 static void print_frames_csv(const bench_raster *b, const bench_line *lines,
                              size_t n) {
-  puts("width,height,frames,seconds,ms_per_frame,shadow_ms,surface_ms,sky_ms,"
-       "read_ms");
+  fputs("width,height,frames,seconds,ms_per_frame", stdout);
+  for (int i = 0; i < PASSES; i++)
+    printf(",%s", pass_names[i].key);
+  putchar('\n');
   for (size_t i = 0; i < n; i++) {
     const bench_line *l = &lines[i];
-    printf("%d,%d,%lld,%.6f,%.6f,%.6f,%.6f,%.6f,%.6f\n", l->width, l->height,
-           b->frames, l->seconds, ms_per_frame(b, l), l->passes.shadow,
-           l->passes.surface, l->passes.sky, l->passes.read);
+    printf("%d,%d,%lld,%.6f,%.6f", l->width, l->height, b->frames, l->seconds,
+           ms_per_frame(b, l));
+    for (int k = 0; k < PASSES; k++)
+      printf(",%.6f", pass_ms(l, k));
+    putchar('\n');
   }
 }
 
@@ -149,10 +182,8 @@ static void print_frames_json(const bench_raster *b, const bench_line *lines,
     json_count(&j, "height", (unsigned long long)l->height);
     json_number(&j, "seconds", l->seconds);
     json_number(&j, "ms_per_frame", ms_per_frame(b, l));
-    json_number(&j, "shadow_ms", l->passes.shadow);
-    json_number(&j, "surface_ms", l->passes.surface);
-    json_number(&j, "sky_ms", l->passes.sky);
-    json_number(&j, "read_ms", l->passes.read);
+    for (int k = 0; k < PASSES; k++)
+      json_number(&j, pass_names[k].key, pass_ms(l, k));
     json_close(&j, '{');
   }
   json_close(&j, '[');

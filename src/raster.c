@@ -124,24 +124,55 @@ void raster_free(raster *r) {
   f->DeleteVertexArrays(1, &s->no_vertices);
 }
 
-bool raster_draw(raster *r, const camera_view *view, error *err) {
+// Shadow maps, where they have to be drawn again.
+static bool draw_shadows(raster *r, error *err) {
   raster_stock *s = &r->stock;
-  const gl_api *f = gl_functions(s->g);
-  s->view = raster_view_of(view, raster_window_of(&s->set), s->scene, s->space);
-  double start = clock_seconds(), compiled = s->programs.seconds;
   r->times.shadow = 0;
-  if (s->shadow.layers > 0 && !s->shadows_drawn) {
-    if (!raster_pass_shadows(s, err)) return false;
-    f->Finish();
-    s->shadows_drawn = true;
-    r->times.shadow = clock_seconds() - start;
-    start = clock_seconds();
-  }
-  if (!raster_pass_frame(s, s->set.shading, false, err)) return false;
-  f->Finish();
-  r->times.draw = clock_seconds() - start;
+  if (s->shadow.layers == 0 || s->shadows_drawn) return true;
+  double start = clock_seconds();
+  if (!raster_pass_shadows(s, err)) return false;
+  raster_wait(r);
+  s->shadows_drawn = true;
+  r->times.shadow = clock_seconds() - start;
+  return true;
+}
+
+// All commands of one frame; it is done when the driver has carried them out.
+static bool draw_frame(raster *r, const camera_view *view, error *err) {
+  raster_stock *s = &r->stock;
+  double compiled = s->programs.seconds;
+  s->view = raster_view_of(view, raster_window_of(&s->set), s->scene, s->space);
+  if (!draw_shadows(r, err) ||
+      !raster_pass_frame(s, s->set.shading, false, err))
+    return false;
   r->times.compile += s->programs.seconds - compiled;
   return true;
+}
+
+bool raster_draw(raster *r, const camera_view *view, error *err) {
+  double start = clock_seconds();
+  if (!draw_frame(r, view, err)) return false;
+  raster_wait(r);
+  r->times.draw = clock_seconds() - start - r->times.shadow;
+  return true;
+}
+
+bool raster_draw_next(raster *r, const camera_view *view, error *err) {
+  if (!draw_frame(r, view, err)) return false;
+  gl_functions(r->stock.g)->Flush();
+  return true;
+}
+
+void raster_wait(const raster *r) {
+  gl_functions(r->stock.g)->Finish();
+}
+
+double raster_resolve_seconds(const raster *r) {
+  raster_wait(r);
+  double start = clock_seconds();
+  gl_target_resolve(r->stock.g, &r->stock.target);
+  raster_wait(r);
+  return clock_seconds() - start;
 }
 
 image raster_read(raster *r, arena *mem) {

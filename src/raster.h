@@ -30,6 +30,14 @@ void raster_free(raster *r);
 // Fails when a program does not compile that was not needed before.
 bool raster_draw(raster *r, const camera_view *view, error *err);
 
+// The same without waiting for its end: for frames that follow each other.
+// raster_wait returns when all of them are done.
+bool raster_draw_next(raster *r, const camera_view *view, error *err);
+void raster_wait(const raster *r);
+
+// Resolve the last frame once more: the seconds that takes alone.
+double raster_resolve_seconds(const raster *r);
+
 // The frame as linear floats; of the crop window, row 0 on top.
 image raster_read(raster *r, arena *mem);
 
