@@ -15,7 +15,7 @@ float glass_reflectance(float cos_i, float eta) {
 // what the near side did; a curved one for a ball: there the ray meets the far
 // side at n - 2 (n.t) t, and leaves under the angle that it came in.
 vec3 glass_exit(vec3 n, vec3 t, vec3 wo, float eta) {
-  if (dot(normalize(at_normal), at_facet) > 0.99999) return -wo;
+  if (at_curved == 0.0) return -wo;
   return refract(t, 2.0 * dot(n, t) * t - n, eta);
 }
 

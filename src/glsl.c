@@ -19,13 +19,17 @@ static bool has_digit(const char *c) {
   return isdigit((unsigned char)*c) != 0;
 }
 
-// The end of "0:12(5)" (Mesa) or "0(12)" (others) at c: the number of a source
-// and that of a line; NULL where there is none.
-static const char *source_line(const char *c, unsigned long *source,
-                               unsigned long *line) {
+// A file's lines are numbered from this times its place in the stage, plus 1:
+// OpenGL can number the sources too, but Mesa forgets that number on the way to
+// its messages.
+enum { LINES_EACH = 100000 };
+
+// The end of "0:12(5)" (Mesa) or "0(12)" (others) at c, and the number of the
+// line; NULL where there is none.
+static const char *line_at(const char *c, unsigned long *line) {
   char *end;
   if (!has_digit(c)) return NULL;
-  *source = strtoul(c, &end, 10);
+  strtoul(c, &end, 10);
   if ((*end != ':' && *end != '(') || !has_digit(end + 1)) return NULL;
   bool mesa = *end == ':';
   *line = strtoul(end + 1, &end, 10);
@@ -47,15 +51,14 @@ char *glsl_explain(const char *log, const char *const *parts, arena *mem) {
   char *out = arena_format(mem, "%s", "");
   unsigned long count = part_count(parts);
   for (const char *c = log; *c != '\0';) {
-    bool starts = c == log || c[-1] == '\n';
-    unsigned long source, line;
-    const char *end = starts ? source_line(c, &source, &line) : NULL;
-    if (end != NULL && source <= count) {
-      const char *name = source == 0 ? "defines" : parts[source - 1];
-      out = arena_format(mem, "%s%s%s:%lu", out, source ? "shaders/" : "", name,
-                         line);
+    unsigned long line = 0;
+    const char *end = line_at(c, &line);
+    unsigned long part = line / LINES_EACH;
+    if (end != NULL && part <= count) {
+      const char *name = part == 0 ? "defines" : parts[part - 1];
+      out = arena_format(mem, "%s%s%s:%lu", out, part ? "shaders/" : "", name,
+                         line % LINES_EACH);
       c = end;
-      continue;
     }
     size_t n = strcspn(c, "\n");
     if (c[n] == '\n') n++;
@@ -76,7 +79,8 @@ static char *assemble(const char *const *parts, const char *defines, arena *mem,
       fail(err, "shaders/%s: there is no such file", parts[i]);
       return NULL;
     }
-    text = arena_format(mem, "%s#line 1 %lu\n%s", text, i + 1, part);
+    text = arena_format(mem, "%s#line %lu\n%s", text, (i + 1) * LINES_EACH + 1,
+                        part);
   }
   return text;
 }

@@ -33,8 +33,7 @@ bool glsl_program(GLuint *out, const gl *g, const glsl_spec *spec, error *err);
 // The text of a file; NULL when there is none of that name.
 const char *glsl_text(const char *name);
 
-// A compiler's message with the numbers of sources replaced by the names of
-// files.  Source 0 is what comes before them, n + 1 is parts[n].
+// A compiler's message with its line numbers replaced by files and theirs.
 char *glsl_explain(const char *log, const char *const *parts, arena *mem);
 
 #endif

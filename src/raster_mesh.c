@@ -8,6 +8,7 @@
 // What the vertex shader gets.
 typedef struct vertex {
   vec3 position, normal, facet;
+  float curved;  // 1 where the normals say that the triangle is no facet
   vec2 texcoord;
   vec3 color;
 } vertex;
@@ -29,6 +30,9 @@ static vec3 facet_normal(const vec3 p[3]) {
                 (float)(n[2] / length)};
 }
 
+// A corner's normal this near to the facet's, 0.1 degrees, means the facet.
+#define FLAT_COSINE 0.9999985f
+
 // The shading normals of the corners: the file's, or the facet's where it
 // gives none; turned to the winding's side where as a whole they are not.
 static void shading_normals(vertex v[3], const mesh *m, size_t triangle) {
@@ -47,6 +51,11 @@ static void shading_normals(vertex v[3], const mesh *m, size_t triangle) {
   }
   for (size_t i = 0; i < 3; i++)
     if (own[i] && side < 0) v[i].normal = vec3_neg(v[i].normal);
+  float curved = 0;
+  for (size_t i = 0; i < 3; i++)
+    if (vec3_dot(v[i].normal, v[i].facet) < FLAT_COSINE) curved = 1;
+  for (size_t i = 0; i < 3; i++)
+    v[i].curved = curved;
 }
 
 // The three vertices of a triangle; false where one is not finite.
@@ -127,7 +136,7 @@ static void describe_attribute(const gl_api *f, GLuint number, GLint floats,
 static void describe_vertices(const gl_api *f) {
   describe_attribute(f, 0, 3, offsetof(vertex, position));
   describe_attribute(f, 1, 3, offsetof(vertex, normal));
-  describe_attribute(f, 2, 3, offsetof(vertex, facet));
+  describe_attribute(f, 2, 4, offsetof(vertex, facet));
   describe_attribute(f, 3, 2, offsetof(vertex, texcoord));
   describe_attribute(f, 4, 3, offsetof(vertex, color));
 }
