@@ -4,6 +4,9 @@
 
 #include "num.h"
 
+#include <stdint.h>
+#include <string.h>
+
 // Gauss points along each half of the meridian, and around.
 enum { DFG_ALONG = 20, DFG_AROUND = 18, DFG_POINTS = 20 };
 
@@ -65,9 +68,26 @@ static dfg_zoom dfg_zoom_to(double range, double scale) {
   return (dfg_zoom){scale, octaves};
 }
 
+// 2^y for y in [0, 1000], to 1e-8: num_exp2 without its tenfold division, as
+// half of the table's time went there.
+static double dfg_exp2(double y) {
+  int n = (int)(y + 0.5);
+  double x = (y - n) * 0.693147180559945;
+  double series =
+      1 +
+      x * (1 + x * (1.0 / 2 +
+                    x * (1.0 / 6 +
+                         x * (1.0 / 24 +
+                              x * (1.0 / 120 + x * (1.0 / 720 + x / 5040))))));
+  uint64_t bits = (uint64_t)(n + 1023) << 52;
+  double power;
+  memcpy(&power, &bits, sizeof power);
+  return power * series;
+}
+
 // Its value at x and, in *step, its derivative.
 static double dfg_zoom_at(dfg_zoom z, double x, double *step) {
-  double e = (double)num_exp2(z.octaves * (float)x);
+  double e = dfg_exp2((double)z.octaves * x);
   *step = z.scale * 0.5 * (e + 1 / e) * (double)z.octaves * 0.693147180559945;
   return z.scale * 0.5 * (e - 1 / e);
 }

@@ -12,7 +12,7 @@
 
 // Nodes along sqrt(NoV) and along sqrt(roughness), both from 0 to 1: the first
 // and the last lie on the edges.
-enum { DFG_COLUMNS = 161, DFG_ROWS = 81 };
+enum { DFG_COLUMNS = 225, DFG_ROWS = 97 };
 
 // c1 = integral of f (1 - (1 - oh)^5) nl, c2 = integral of f (1 - oh)^5 nl,
 // where f = D V.  PBR_REPORT takes k = r^2 / 2.
