@@ -21,7 +21,7 @@ else skip "the manual page is well formed" "no man"; fi
 
 # Every option of every command, with every word that it offers.  The file is
 # not there, so exit 3 says that the command line itself was fine.
-for command in render info compare "bench load" "bench rays"; do
+for command in render info compare "bench load" "bench rays" "bench raster"; do
   # shellcheck disable=SC2086
   "$facet" help $command >"$T/help" || fail "help $command"
   wrong= count=0 operands=missing.obj
@@ -33,6 +33,7 @@ for command in render info compare "bench load" "bench rays"; do
     N|K|SECONDS|REL|S|STOPS|T|DEG) values=1 ;;
     X,Y,Z) values=1,-2,.5e1 ;;
     WxH) values=8x4 ;;
+    WxH,...) values="8x4 8x4,16x8,1x1" ;;
     X0,Y0,X1,Y1) values=0,0,4,4 ;;
     "FILE|R,G,B|none") values="1,1,1 none x.hdr" ;;
     FILE|NAME|OUT.png|REF-VARIANCE.pfm) values=x.png ;;
@@ -56,7 +57,7 @@ done
 
 exits 3 "-j4 -qv: joined value, bundled switches" "$facet" render -j4 -qv missing.obj
 exits 3 "-- ends the options" "$facet" render -- -x.obj
-exits 0 "the last one wins" "$facet" render a.obj -q --spp 9 -r 8x8 -r 5x4 --spp 1 -o l.png
+exits 0 "the last one wins" "$facet" render a.obj -q --msaa 9 -r 8x8 -r 5x4 --msaa 1 -o l.png
 "$facet" info --json l.png >out.json
 ok "and decides the size" grep -q '"width": 5, "height": 4' out.json
 
@@ -66,7 +67,7 @@ for words in "--spp 3x" "--spp 0" "--spp -1" "--spp 1e3" "--spp 1.5" "--spp=" \
   "--fov 0x10" "--fov 1e999" "--fov 40deg" "-r 10" "-r 10x" "-r 10x10x10" \
   "-r 0x10" "-r 65536x10" "-r 10,10" "--eye 1,2" "--eye 1,2,3,4" "--eye 1,,3" \
   "--eye 1,2,3," "--eye a,b,c" "--crop 0,0,4" "--crop 0,0,4,4,4" \
-  "--crop -1,0,4,4" "--aov normal,,depth" "--aov normal," "--aov norm" \
+  "--crop -1,0,4,4" "--msaa 0" "--gl opengl" "--pbr-model phong" "--aov normal,,depth" "--aov normal," "--aov norm" \
   "--time 0" "--time -1" "--error 0" "--seed -1" "-j 0" "-j 1.5" "-j" \
   "--threads=x" "--depth 12" "--tonemap filmic" "--up-axis X" "--strict=1" \
   "--lights maybe" "--exposure bright" "--crease 181" "--nonsense" "-Z" "-qZ" \
@@ -91,10 +92,9 @@ nearest "render a.obj --shading albdo" "albedo"
 nearest "compare --metrics mae a b" "--metric"
 nearest "bench lod a.obj" "bench load"
 nearest "a.obj" "facet render a.obj"
-for later in view ibl merge "bench error" "bench raster" "bench ibl" \
-  "render a.obj --engine raster" "render a.obj --gl egl" "render a.obj --resume" \
+for later in ibl merge "bench error" "bench ibl" "render a.obj --resume" \
   "render a.obj --checkpoint x" "render a.obj --every 3" "render a.obj --shard 0/2" \
-  "render a.obj --msaa 4" "render a.obj --post frosted" "render a.obj --explain" \
+  "render a.obj --explain" \
   "render a.obj --bvh wide" "render a.obj --integrator mis" \
   "render a.obj --sampler sobol"; do
   # shellcheck disable=SC2086
@@ -129,7 +129,7 @@ says "bad.obj:4" "is said with its line"
 if [ $? = 4 ]; then pass "help on a full disk"; else fail "help on a full disk"; fi
 "$facet" info a.obj >&- 2>"$T/err"
 if [ $? = 4 ]; then pass "info on closed output"; else fail "info on closed output"; fi
-{ "$facet" render a.obj -r 640x480 --spp 1 -q -o - --format pfm; echo $? >code; } |
+{ "$facet" render a.obj -r 640x480 -q -o - --format pfm; echo $? >code; } |
   head -c 10 >/dev/null 2>&1
 if [ "$(cat code)" = 4 ]; then pass "a reader that leaves"; else fail "a reader that leaves"; fi
 
@@ -147,15 +147,15 @@ if command -v script >/dev/null; then
   done
   tty "$facet" render a.obj -o - --format png
   ok "no picture to a terminal" grep -q "will not write a picture to a terminal" "$T/out"
-  tty "$facet" render a.obj -r 64x48 --spp 4 -o tty.png
+  tty "$facet" render --engine path a.obj -r 64x48 --spp 4 -o tty.png
   ok "a bar on a terminal" grep -q "samples/s" "$T/out"
-  tty env TERM=dumb "$facet" render a.obj -r 64x48 --spp 4 -o tty.png
+  tty env TERM=dumb "$facet" render --engine path a.obj -r 64x48 --spp 4 -o tty.png
   if grep -q "tty.png: 64x48" "$T/out" && ! grep -q "samples/s\|$escape" "$T/out"
   then pass "none on a dumb one"; else fail "none on a dumb one"; fi
 else skip "terminals" "no script(1)"; fi
-"$facet" render a.obj -r 64x48 --spp 4 -o log.png 2>"$T/err"
+"$facet" render --engine path a.obj -r 64x48 --spp 4 -o log.png 2>"$T/err"
 if [ "$(wc -l <"$T/err")" = 1 ] && grep -q '^log.png: 64x48, 4 spp, .* s, 3 triangles, no warnings$' "$T/err"
 then pass "one line in a log"; else fail "one line in a log"; fi
-"$facet" render -q a.obj -r 64x48 --spp 1 -o log.png 2>"$T/err"
+"$facet" render -q a.obj -r 64x48 -o log.png 2>"$T/err"
 if [ ! -s "$T/err" ]; then pass "-q says nothing"; else fail "-q says nothing"; fi
 finish

@@ -71,8 +71,8 @@ assert any(d["rule"] == 1 and d["triangles"] == 2 for d in j["decisions"]), j["d
 E
 exits 0 "--scene prints a scene" "$facet" info --scene s.scene
 cp out again.scene
-"$facet" render -q s.scene --spp 2 -r 32x24 -o one.pfm
-"$facet" render -q again.scene --spp 2 -r 32x24 -o two.pfm
+"$facet" render --engine path -q s.scene --spp 2 -r 32x24 -o one.pfm
+"$facet" render --engine path -q again.scene --spp 2 -r 32x24 -o two.pfm
 ok "that renders to the same picture" cmp one.pfm two.pfm
 "$facet" info --json one.pfm b.obj one.pfm >lines 2>"$T/err"
 ok "several files are JSON lines" python3 -c "

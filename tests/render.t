@@ -4,9 +4,11 @@
 . tests/tap.sh
 cd "$T" || exit 1
 write_obj a.obj
-render() { "$facet" render -q -r 48x32 --spp 4 "$@"; }
+# Paths, whose numbers can be told in advance; raster.t has the other engine.
+path="--engine path"
+render() { "$facet" render -q $path -r 48x32 --spp 4 "$@"; }
 
-exits 0 "no option at all" "$facet" render a.obj --spp 1
+exits 0 "no option at all" "$facet" render a.obj
 "$facet" info --json a.png >"$T/out"
 ok "a.png in this folder, 1280x720, 8 bit" \
   grep -q '"PNG", "width": 1280, "height": 720, "channels": 3, "depth": 8' out
@@ -59,7 +61,7 @@ ok "--format decides, not the suffix" cmp odd.name f.hdr
 render a.obj --env 0.25,0.25,0.25 --exposure 1 -o exposed.png
 render a.obj --env 0.5,0.5,0.5 -o brighter.png
 ok "one stop is a factor of two" cmp exposed.png brighter.png
-"$facet" render -r 48x32 --spp 4 a.obj --exposure 1 -o exposed.pfm 2>"$T/err"
+"$facet" render $path -r 48x32 --spp 4 a.obj --exposure 1 -o exposed.pfm 2>"$T/err"
 says "--exposure has no effect" "a PFM keeps radiance, and that is said"
 ok "it does" cmp exposed.pfm j1.pfm
 white() { # CURVE CODE: of radiance 1
@@ -87,9 +89,9 @@ done
 ok "the albedo is Kd" sh -c "'$facet' info s-albedo.pfm | grep -qx 'max  0.8 0.8 0.8'"
 
 # A z-test sees no difference between seeds, and one between skies.
-"$facet" render -q a.obj -r 48x32 --spp 64 --aov variance -o z0.pfm
-"$facet" render -q a.obj -r 48x32 --spp 64 --aov variance --seed 1 -o z1.pfm
-"$facet" render -q a.obj -r 48x32 --spp 64 --aov variance --env-scale 1.1 -o z2.pfm
+"$facet" render $path -q a.obj -r 48x32 --spp 64 --aov variance -o z0.pfm
+"$facet" render $path -q a.obj -r 48x32 --spp 64 --aov variance --seed 1 -o z1.pfm
+"$facet" render $path -q a.obj -r 48x32 --spp 64 --aov variance --env-scale 1.1 -o z2.pfm
 exits 0 "z-test: another seed is equal" "$facet" compare z1.pfm z0.pfm --z-test z0.variance.pfm
 exits 1 "z-test: another sky is not" "$facet" compare z2.pfm z0.pfm --z-test z0.variance.pfm
 
@@ -106,7 +108,7 @@ fov 30
 light point 0 3 0 intensity 20 20 20
 env constant 0.1 0.1 0.1
 E
-small() { "$facet" render -q --spp 4 "$@"; }
+small() { "$facet" render -q $path --spp 4 "$@"; }
 small a.obj -o top.pfm
 small a.scene -o top2.pfm
 small a.obj --camera side -o side.pfm
@@ -140,33 +142,33 @@ E
 
 # Stop rules.
 ok "--time ends in time" sh -c "
-  '$facet' render -q a.obj -r 320x200 --time 1 --json -o time.png | python3 -c '
+  '$facet' render -q $path a.obj -r 320x200 --time 1 --json -o time.png | python3 -c '
 import json, sys
 j = json.load(sys.stdin)
 assert 0.3 < j[\"seconds\"][\"total\"] < 1.3 and j[\"spp\"] > 1, j'"
 ok "--error ends when it is small" sh -c "
-  '$facet' render -q a.obj -r 48x32 --error 0.05 --json -o error.png | python3 -c '
+  '$facet' render -q $path a.obj -r 48x32 --error 0.05 --json -o error.png | python3 -c '
 import json, sys
 j = json.load(sys.stdin)
 assert 0 < j[\"error\"] <= 0.05 and j[\"spp\"] >= 16, j'"
 
 # Warnings.
 { echo "mtllib nowhere.mtl"; cat a.obj; } >w.obj
-exits 0 "a missing library is a warning" "$facet" render w.obj -r 8x8 --spp 1
+exits 0 "a missing library is a warning" "$facet" render $path w.obj -r 8x8 --spp 1
 says "warning: w.obj:" "with its place"
 says "nowhere.mtl" "and what was looked for"
 says "1 warning" "and counted"
 rm -f w.png
-exits 1 "--strict makes it an error" "$facet" render w.obj -r 8x8 --spp 1 --strict
+exits 1 "--strict makes it an error" "$facet" render $path w.obj -r 8x8 --spp 1 --strict
 exits 1 "and nothing is written" test -e w.png
 printf 'v 0 0 0\nv 1 0 0\n' >none.obj
 exits 3 "an OBJ without faces" "$facet" render none.obj
 
 # What is there stays there.
 echo old >old.png
-exits 4 "a full device" "$facet" render a.obj -q -r 320x200 --spp 1 --format pfm -o /dev/full
+exits 4 "a full device" "$facet" render $path a.obj -q -r 320x200 --spp 1 --format pfm -o /dev/full
 exits 4 "a file that cannot grow" sh -c "trap '' XFSZ; ulimit -f 8
-  exec '$facet' render a.obj -q -r 320x200 --spp 1 -o old.png"
+  exec '$facet' render $path a.obj -q -r 320x200 --spp 1 -o old.png"
 ok "the old file is whole" grep -qx old old.png
 ok "and no other is left" sh -c '! ls -A | grep -q "tmp\|old.png."'
 exits 3 "a malformed input" "$facet" render missing.obj -o old.png
@@ -181,11 +183,11 @@ exits 2 "the environment as output" "$facet" render a.obj --env e.pfm -o e.pfm
 exits 2 "also by another name" "$facet" render a.obj --env e.pfm -o link.pfm
 exits 2 "the OBJ as output" "$facet" render a.obj --format png -o ./a.obj
 ok "all of them unharmed" sh -c 'cmp e.pfm j1.pfm && grep -q "^f 4 3 2 1" a.obj'
-exits 5 "no memory" sh -c "ulimit -v 500000; exec '$facet' render a.obj -j 1 -r 40000x40000"
+exits 5 "no memory" sh -c "ulimit -v 500000; exec '$facet' render $path a.obj -j 1 -r 40000x40000"
 says "out of memory" "is said"
 
 # Signals.  env gives back the SIGINT that a shell takes from what runs with &.
-start() { env --default-signal=INT "$facet" render a.obj -q "$@" 2>"$T/err" & pid=$!; }
+start() { env --default-signal=INT "$facet" render $path a.obj -q "$@" 2>"$T/err" & pid=$!; }
 for signal in INT TERM; do
   start -r 160x100 --time 20 -o $signal.png
   sleep 0.7
