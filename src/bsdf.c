@@ -67,6 +67,7 @@ static bool both_above(vec3 wo, vec3 wi) {
 }
 
 vec3 bsdf_eval(const bsdf *b, vec3 wo, vec3 wi) {
+  if (b->kind == BSDF_ROUGH) return bsdf_rough_eval(&b->rough, wo, wi);
   if (bsdf_is_delta(b) || !both_above(wo, wi)) return vec3_all(0);
   vec3 f = vec3_scale(b->kd, 1 / PI);
   if (b->kind == BSDF_LAMBERT) return f;
@@ -74,7 +75,14 @@ vec3 bsdf_eval(const bsdf *b, vec3 wo, vec3 wi) {
   return vec3_mad(f, blinn_phong_norm(b->ns) * cosine_power(h, b->ns), b->ks);
 }
 
+vec3 bsdf_eval_point(const bsdf *b, vec3 wo, vec3 wi) {
+  if (b->kind != BSDF_ROUGH) return bsdf_eval(b, wo, wi);
+  bsdf_rough under = bsdf_rough_under_point(&b->rough);
+  return bsdf_rough_eval(&under, wo, wi);
+}
+
 float bsdf_pdf(const bsdf *b, vec3 wo, vec3 wi) {
+  if (b->kind == BSDF_ROUGH) return bsdf_rough_pdf(&b->rough, wo, wi);
   if (bsdf_is_delta(b) || !both_above(wo, wi)) return 0;
   float diffuse = wi.z / PI;
   if (b->kind == BSDF_LAMBERT) return diffuse;
@@ -102,7 +110,7 @@ static vec3 sample_blinn_phong(float n, vec3 wo, float u1, float u2) {
   return vec3_sub(vec3_scale(h, 2 * vec3_dot(wo, h)), wo);
 }
 
-static bool sample_rough(const bsdf *b, vec3 wo, float u, float u1, float u2,
+static bool sample_shiny(const bsdf *b, vec3 wo, float u, float u1, float u2,
                          bsdf_sample *out) {
   if (!(wo.z > 0)) return false;
   bool specular = b->kind == BSDF_BLINN_PHONG && u < specular_share(b);
@@ -112,6 +120,15 @@ static bool sample_rough(const bsdf *b, vec3 wo, float u, float u1, float u2,
   if (!(pdf > 0)) return false;
   vec3 weight = vec3_scale(bsdf_eval(b, wo, wi), wi.z / pdf);
   *out = (bsdf_sample){.wi = wi, .weight = weight, .pdf = pdf};
+  return true;
+}
+
+static bool sample_rough(const bsdf_rough *b, vec3 wo, const float u[3],
+                         bsdf_sample *out) {
+  bsdf_sample s = {.delta = false};
+  if (!bsdf_rough_sample(b, wo, u, &s.wi, &s.weight)) return false;
+  s.pdf = bsdf_rough_pdf(b, wo, s.wi);
+  *out = s;
   return true;
 }
 
@@ -149,10 +166,12 @@ bool bsdf_sample_wi(const bsdf *b, vec3 wo, float u, float u1, float u2,
   switch (b->kind) {
   case BSDF_MIRROR: return sample_mirror(b, wo, out);
   case BSDF_GLASS: return sample_glass(b, wo, u, out);
+  case BSDF_ROUGH:
+    return sample_rough(&b->rough, wo, (float[]){u, u1, u2}, out);
   case BSDF_LAMBERT:
   case BSDF_BLINN_PHONG: break;
   }
-  return sample_rough(b, wo, u, u1, u2, out);
+  return sample_shiny(b, wo, u, u1, u2, out);
 }
 
 bool bsdf_is_delta(const bsdf *b) {

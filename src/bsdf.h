@@ -7,11 +7,12 @@
 #ifndef BSDF_H
 #define BSDF_H
 
-#include "microfacet.h"
+#include "bsdf_rough.h"
 
 typedef enum bsdf_kind {
   BSDF_LAMBERT,
   BSDF_BLINN_PHONG,
+  BSDF_ROUGH,  // metallic-roughness
   BSDF_MIRROR,
   BSDF_GLASS
 } bsdf_kind;
@@ -23,6 +24,7 @@ typedef struct bsdf {
   float ns;      // Blinn-Phong exponent
   float eta;     // glass: index of refraction inside over outside
   bool schlick;  // mirror: ks is F0 and rises towards grazing by Schlick
+  bsdf_rough rough;
 } bsdf;
 
 // One sampled direction.  weight = f(wo, wi) |cos wi| / pdf, so a path just
@@ -37,6 +39,10 @@ typedef struct bsdf_sample {
 
 // f(wo, wi), without the cosine; 0 for deltas and across the surface.
 vec3 bsdf_eval(const bsdf *b, vec3 wo, vec3 wi);
+
+// The same for light from a point or a direction, which metallic-roughness may
+// see by another formula.
+vec3 bsdf_eval_point(const bsdf *b, vec3 wo, vec3 wi);
 
 // The density of bsdf_sample over wi, per steradian.
 float bsdf_pdf(const bsdf *b, vec3 wo, vec3 wi);

@@ -83,7 +83,7 @@ static int choose_engine(render_job *j) {
     if (raster_job_open(&j->raster, j->o, j->shot.mem, &err)) {
       j->engine = ENGINE_RASTER;
     } else if (j->engine == ENGINE_RASTER) {
-      return cmd_fail(j->o, EXIT_RESOURCES, "%s; --engine path needs none",
+      return cmd_fail(j->o, EXIT_RESOURCES, "%s; --engine path needs no OpenGL",
                       err.text);
     } else {
       j->engine = ENGINE_PATH;
@@ -155,7 +155,9 @@ static void choose_settings(render_job *j) {
   j->world = (path_world){.scene = &sh->scene,
                           .lights = v[OPT_LIGHTS].words == 0,
                           .max_depth = (int)v[OPT_MAX_DEPTH].whole[0]};
-  j->world.dfg = matter_table(&sh->scene, PBR_GGX, sh->mem, sh->threads);
+  j->world.dfg = matter_table(&sh->scene,
+                              (pbr_model)v[OPT_PBR_MODEL].words, sh->mem,
+                              sh->threads);
 }
 
 // The most memory that the process has had, in bytes.
@@ -311,7 +313,9 @@ static int prepare(render_job *j) {
   if (code != EXIT_DONE) return code;
   j->out.exposure = given(j, OPT_EXPOSURE) ? j->o->value[OPT_EXPOSURE].number[0]
                                            : j->shot.scene.exposure;
-  return shot_frame(&j->shot);
+  code = shot_frame(&j->shot);
+  j->out.pane.x0 = j->shot.x0, j->out.pane.y0 = j->shot.y0;
+  return code;
 }
 
 // All stages; an exit code.

@@ -46,6 +46,17 @@ vec3 matter_albedo(const surface *s) {
   return base_color(s);
 }
 
+const dfg *matter_table(const scene *s, pbr_model model, arena *mem,
+                        pool *threads) {
+  for (size_t i = 0; i < s->material_count; i++) {
+    if (s->materials[i].kind != MATERIAL_METAL_ROUGH) continue;
+    dfg *table = ARENA_NEW(mem, dfg, 1);
+    dfg_build(table, model, mem, threads);
+    return table;
+  }
+  return NULL;
+}
+
 static matter whole(bsdf b) {
   return (matter){b, vec3_all(1)};
 }
@@ -56,61 +67,45 @@ static bsdf glass_of(float ni, vec3 tint) {
   return (bsdf){.kind = BSDF_GLASS, .kd = tint, .eta = eta};
 }
 
-// The first of two layers with probability p, where `first` is its share of
-// the light; *u is stretched to be uniform again.
-static bool take_first(float p, vec3 first, float *u, vec3 *weight) {
-  if (*u < p) {
-    *u /= p;
-    *weight = vec3_mul(*weight, vec3_scale(first, 1 / p));
-    return true;
-  }
-  *u = (*u - p) / (1 - p);
-  vec3 rest = vec3_sub(vec3_all(1), first);
-  *weight = vec3_mul(*weight, vec3_scale(rest, 1 / (1 - p)));
-  return false;
+// The first of two layers with probability p, else the second; *u is stretched
+// to be uniform again, and *weight grows by the chosen layer's share of the
+// light over its probability.
+typedef struct layers {
+  vec3 first, second;
+  float p;
+} layers;
+
+static bool take_first(const layers *l, float *u, vec3 *weight) {
+  bool first = *u < l->p;
+  float p = first ? l->p : 1 - l->p;
+  *u = first ? *u / p : (*u - l->p) / p;
+  *weight = vec3_mul(*weight, vec3_scale(first ? l->first : l->second, 1 / p));
+  return first;
 }
 
-// Above this exponent a highlight is narrower than the rounding of a half
-// vector: the surface is a mirror.
-#define SMOOTH_EXPONENT 1e8f
-
-// A coat that mirrors by Schlick over a Lambert ground that gets the rest.
-static matter smooth_coat(vec3 f0, vec3 kd, float cos_o, float u) {
-  vec3 coat = fresnel_schlick(f0, cos_o);
-  matter m = {.weight = vec3_all(1)};
-  float p = vec3_peak(kd) > 0 ? fminf(vec3_peak(coat), 1) : 1;
-  if (take_first(p, coat, &u, &m.weight))
-    m.bsdf = (bsdf){.kind = BSDF_MIRROR, .ks = vec3_all(1)};
-  else
-    m.bsdf = (bsdf){.kind = BSDF_LAMBERT, .kd = kd};
-  return m;
-}
-
-// Metallic-roughness told in the lobes of this chapter: alpha = r^2, the
-// Blinn-Phong exponent of the same width, n = 2 / alpha^2 - 2; specular F0,
-// diffuse (1 - m)(1 - F0) c, so that no more than 1 leaves; the share tf is
-// smooth glass, stained by the square root of c at each of two crossings.
-static matter metal_rough(const surface *s, float cos_o, float u) {
+// Metallic-roughness.  The share tf is smooth glass, stained by the square
+// root of c at each of two crossings.  A smooth surface is a mirror over the
+// diffuse part, which knows itself what the mirror leaves it.
+static matter metal_rough(const dfg *table, const surface *s, float cos_o,
+                          float u) {
   const material *m = material_at(s);
   vec3 c = base_color(s), weight = vec3_all(1);
-  float share = fminf(vec3_peak(m->tf), 1);
-  if (share > 0 && take_first(share, m->tf, &u, &weight)) {
+  layers glass = {m->tf, vec3_sub(vec3_all(1), m->tf), 0};
+  glass.p = fminf(vec3_peak(m->tf), 1);
+  if (glass.p > 0 && take_first(&glass, &u, &weight)) {
     vec3 tint = {sqrtf(c.x), sqrtf(c.y), sqrtf(c.z)};
     return (matter){glass_of(m->ni, tint), weight};
   }
   float rough = textured_number(m->roughness, &m->map_pr, s->uv);
   float metal = textured_number(m->metallic, &m->map_pm, s->uv);
-  vec3 f0 = vec3_lerp(vec3_all(0.04f), c, metal);
-  vec3 kd = vec3_scale(c, 1 - metal);
-  float a2 = rough * rough * rough * rough;
-  float ns = 2 / a2 - 2;
-  if (!(ns < SMOOTH_EXPONENT)) {
-    matter out = smooth_coat(f0, kd, cos_o, u);
-    out.weight = vec3_mul(out.weight, weight);
-    return out;
-  }
-  kd = vec3_mul(kd, vec3_sub(vec3_all(1), f0));
-  bsdf b = {.kind = BSDF_BLINN_PHONG, .kd = kd, .ks = f0, .ns = fmaxf(ns, 0)};
+  bsdf b = {.kind = BSDF_ROUGH};
+  b.rough = bsdf_rough_of(table, c, metal, rough);
+  if (b.rough.terms.alpha >= ALPHA_MIN) return (matter){b, weight};
+  vec3 coat = fresnel_schlick(b.rough.terms.f0, cos_o);
+  bool ground = vec3_peak(b.rough.terms.kd) > 0;
+  layers smooth = {coat, vec3_all(1), ground ? fminf(vec3_peak(coat), 1) : 1};
+  if (take_first(&smooth, &u, &weight))
+    b = (bsdf){.kind = BSDF_MIRROR, .ks = vec3_all(1)};
   return (matter){b, weight};
 }
 
@@ -129,10 +124,10 @@ static matter blinn_phong(const surface *s) {
   return whole(b);
 }
 
-matter matter_choose(const surface *s, float cos_o, float u) {
+matter matter_choose(const dfg *table, const surface *s, float cos_o, float u) {
   const material *m = material_at(s);
   switch (m->kind) {
-  case MATERIAL_METAL_ROUGH: return metal_rough(s, cos_o, u);
+  case MATERIAL_METAL_ROUGH: return metal_rough(table, s, cos_o, u);
   case MATERIAL_GLASS: return whole(glass_of(m->ni, vec3_all(1)));
   case MATERIAL_MIRROR:
     return whole(

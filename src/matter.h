@@ -15,9 +15,14 @@ typedef struct matter {
   vec3 weight;
 } matter;
 
+// The table that metallic-roughness needs, of one set of formulas; NULL when no
+// material of the scene is of that kind.
+const dfg *matter_table(const scene *s, pbr_model model, arena *mem,
+                        pool *threads);
+
 // Choose by u for a viewer at cosine cos_o to the shading normal.  glass.eta
 // is that of a viewer outside.
-matter matter_choose(const surface *s, float cos_o, float u);
+matter matter_choose(const dfg *table, const surface *s, float cos_o, float u);
 
 // Whether some of it may go straight through; what does not, in [0, 1].
 bool matter_passes(const surface *s);

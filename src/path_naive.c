@@ -2,8 +2,6 @@
 
 #include "path_naive.h"
 
-#include "matter.h"
-
 // A path whose throughput falls below this plays roulette for it.
 #define ROULETTE_BELOW 0.25f
 
@@ -78,7 +76,8 @@ static void stop_orient(stop *s, const bsdf *b) {
     s->n = surface_bend_glass(s->ns, s->ng, s->wo, b->eta);
     break;
   case BSDF_LAMBERT:
-  case BSDF_BLINN_PHONG: s->n = surface_face(s->ns, s->wo); break;
+  case BSDF_BLINN_PHONG:
+  case BSDF_ROUGH: s->n = surface_face(s->ns, s->wo); break;
   }
   bsdf_basis(s->n, &s->t, &s->b);
 }
@@ -139,7 +138,7 @@ static void add_lights(walk *k, const stop *s, const bsdf *b) {
     light_ray l = light_ray_of(&world->lights[i], s->at.p);
     vec3 wi = to_local(s, l.wi);
     if (!(wi.z > 0)) continue;
-    vec3 f = vec3_scale(bsdf_eval(b, wo, wi), wi.z);
+    vec3 f = vec3_scale(bsdf_eval_point(b, wo, wi), wi.z);
     vec3 lit = vec3_mul(k->throughput, vec3_mul(f, l.power));
     if (!(vec3_peak(lit) > 0)) continue;
     k->sum = vec3_mad(k->sum, light_passes(k, &s->at, &l), lit);
@@ -179,7 +178,8 @@ static bool survives(walk *k, int segment) {
 // One bounce at the hit; false where the path ends.
 static bool bounce(walk *k, stop *s) {
   float cos_o = fminf(fmaxf(vec3_dot(s->ns, s->wo), 0), 1);
-  matter m = matter_choose(&s->at, cos_o, rng_next(k->random));
+  float u = rng_next(k->random);
+  matter m = matter_choose(k->world->dfg, &s->at, cos_o, u);
   k->throughput = vec3_mul(k->throughput, m.weight);
   if (!s->at.front && m.bsdf.kind == BSDF_GLASS) m.bsdf.eta = 1 / m.bsdf.eta;
   stop_orient(s, &m.bsdf);

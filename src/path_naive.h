@@ -3,15 +3,16 @@
 #ifndef PATH_NAIVE_H
 #define PATH_NAIVE_H
 
+#include "matter.h"
 #include "rng.h"
-#include "surface.h"
 
 // What a path walks through.
 typedef struct path_world {
   const scene *scene;
   tracer tracer;
-  bool lights;    // point and directional lights on
-  int max_depth;  // segments: 1 emission seen, 2 direct light; 0 roulette only
+  bool lights;     // point and directional lights on
+  int max_depth;   // segments: 1 emission seen, 2 direct light; 0 roulette only
+  const dfg *dfg;  // matter_table of the scene
 } path_world;
 
 // What one path did.

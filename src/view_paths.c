@@ -34,18 +34,19 @@ struct view_paths {
   bool running;  // a pass is under way
 };
 
-view_paths *view_paths_new(const scene *s, const view_paths_settings *set,
-                           pool *threads, arena *mem) {
+view_paths *view_paths_new(const view_paths_settings *set, pool *threads,
+                           arena *mem) {
   view_paths *p = ARENA_NEW(mem, view_paths, 1);
+  const scene *s = set->world.scene;
   *p = (view_paths){.given = s, .set = *set, .threads = threads, .mem = mem};
   p->scene = *s;
   p->scene.materials = ARENA_NEW(mem, material, s->material_count + 1);
+  p->world = set->world;
+  p->world.scene = &p->scene;
   p->film = film_new(mem, set->width, set->height, false);
   p->stats = ARENA_NEW(mem, path_stats, (size_t)pool_threads(threads));
   p->tiles_across = (set->width + TILE_SIDE - 1) / TILE_SIDE;
   p->tile_count = p->tiles_across * ((set->height + TILE_SIDE - 1) / TILE_SIDE);
-  p->world = (path_world){
-      .scene = &p->scene, .lights = set->lights, .max_depth = set->max_depth};
   return p;
 }
 

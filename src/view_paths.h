@@ -13,14 +13,13 @@ typedef struct view_paths view_paths;
 typedef struct view_paths_settings {
   int width, height;
   uint64_t seed;
-  bool lights;    // as in path_world
-  int max_depth;  // as in path_world
+  path_world world;  // its tracer is chosen here
 } view_paths_settings;
 
 // At rest.  The scene must outlive the result; so must the pool, of at least
 // two workers, which nobody else may use while passes run.
-view_paths *view_paths_new(const scene *s, const view_paths_settings *set,
-                           pool *threads, arena *mem);
+view_paths *view_paths_new(const view_paths_settings *set, pool *threads,
+                           arena *mem);
 
 // Begin anew with this look.  Returns as soon as every worker has put down
 // the tile in its hands.  Fails when the camera is impossible.

@@ -103,12 +103,14 @@ static double albedo_of(const bsdf *b, float cos_o) {
   return sum;
 }
 
-static void check_albedo(material m, float cos_o, double want) {
+static void check_albedo(material m, float cos_o, const dfg *table,
+                         double want) {
   world *w = world_new();
   w->materials[0] = m;
   white_sky(w);
   add_floor(w, 0);
   world_ready(w, 0);
+  if (table != NULL) w->path.dfg = table;
   estimate e = world_radiance(w, down_at(cos_o), shortened(200000), 5);
   print_message("# kind %d cos %.1f: %.5f +- %.5f, expected %.5f\n", m.kind,
                 (double)cos_o, e.mean, e.error, want);
@@ -123,33 +125,60 @@ static void furnace_of_materials(void **state) {
   vec3 kd = vec3_all(0.4f), ks = vec3_all(0.5f);
   for (float c = 0.2f; c < 1; c += 0.3f) {
     material m = world_material(MATERIAL_BLINN_PHONG, kd, BLACK);
-    check_albedo(m, c, 0.4);
+    check_albedo(m, c, NULL, 0.4);
     m.ks = ks;
     m.ns = 20;
     bsdf b = {.kind = BSDF_BLINN_PHONG, .kd = kd, .ks = ks, .ns = 20};
-    check_albedo(m, c, albedo_of(&b, c));
+    check_albedo(m, c, NULL, albedo_of(&b, c));
     m.kd = m.ks = vec3_all(0.8f);  // more than 1: scaled to 0.5 each
     b.kd = b.ks = vec3_all(0.5f);
-    check_albedo(m, c, albedo_of(&b, c));
+    check_albedo(m, c, NULL, albedo_of(&b, c));
+  }
+}
 
-    m = world_material(MATERIAL_METAL_ROUGH, vec3_all(0.7f), BLACK);
-    m.roughness = 0.5f;
-    m.metallic = 0.3f;
-    b = (bsdf){.kind = BSDF_BLINN_PHONG, .ns = 2 / 0.0625f - 2};
-    b.ks = vec3_all(0.04f + 0.3f * 0.66f);
-    b.kd = vec3_all(0.7f * 0.7f * (1 - b.ks.x));
-    check_albedo(m, c, albedo_of(&b, c));
-    m.tf = vec3_all(0.6f);  // and 0.6 of clear glass in front of the white sky
-    double tinted = sqrt(0.7);
-    float ct, r = fresnel_dielectric(c, 1.5f, &ct);
-    double through = (double)r + (1 - (double)r) * tinted;
-    check_albedo(m, c, 0.6 * through + 0.4 * albedo_of(&b, c));
+// And of metallic-roughness, by both sets of formulas: rough and smooth, and
+// with 0.6 of clear glass in front of the white sky.
+static void furnace_of_metal_rough(void **state) {
+  (void)state;
+  arena mem = {0};
+  for (int model = PBR_GGX; model <= PBR_REPORT; model++)
+    for (float c = 0.2f; c < 1; c += 0.3f) {
+      dfg table;
+      dfg_build(&table, (pbr_model)model, &mem, NULL);
+      material m = world_material(MATERIAL_METAL_ROUGH, vec3_all(0.7f), BLACK);
+      m.roughness = 0.5f;
+      m.metallic = 0.3f;
+      bsdf b = {.kind = BSDF_ROUGH};
+      b.rough = bsdf_rough_of(&table, m.kd, 0.3f, 0.5f);
+      check_albedo(m, c, &table, albedo_of(&b, c));
+      m.tf = vec3_all(0.6f);
+      double tinted = sqrt(0.7);
+      float ct, r = fresnel_dielectric(c, 1.5f, &ct);
+      double through = (double)r + (1 - (double)r) * tinted;
+      check_albedo(m, c, &table, 0.6 * through + 0.4 * albedo_of(&b, c));
+      m.tf = vec3_all(0);
+      m.roughness = 0;
+      m.metallic = 1;
+      check_albedo(m, c, &table, 0.7 + 0.3 * pow(1 - (double)c, 5));
+      m.metallic = 0;
+      b.rough = bsdf_rough_of(&table, m.kd, 0, 0);
+      double coat = 0.04 + 0.96 * pow(1 - (double)c, 5);
+      check_albedo(m, c, &table, coat + albedo_of(&b, c));
+    }
+  arena_free(&mem);
+}
 
-    m = world_material(MATERIAL_METAL_ROUGH, vec3_all(0.7f), BLACK);
-    double coat = 0.04 + 0.96 * pow(1 - (double)c, 5);
-    check_albedo(m, c, coat + (1 - coat) * 0.7);
-    m.metallic = 1;
-    check_albedo(m, c, 0.7 + 0.3 * pow(1 - (double)c, 5));
+// A white dielectric loses nothing, whatever its roughness: PBR_GGX, on the
+// smooth ball whose normals send light below its facets.
+static void furnace_of_porcelain(void **state) {
+  (void)state;
+  for (float r = 0; r < 1.1f; r += 0.25f) {
+    material m = world_material(MATERIAL_METAL_ROUGH, WHITE, BLACK);
+    m.roughness = r;
+    double mean;
+    furnace(m, 3, true, &mean);
+    print_message("# roughness %.2f: %.5f\n", (double)r, mean);
+    assert_true(fabs(mean - 1) < (shortened(100) < 100 ? 0.02 : 2e-3));
   }
 }
 
@@ -370,6 +399,8 @@ int main(void) {
       cmocka_unit_test(furnace_of_deltas),
       cmocka_unit_test(furnace_of_white),
       cmocka_unit_test(furnace_of_materials),
+      cmocka_unit_test(furnace_of_metal_rough),
+      cmocka_unit_test(furnace_of_porcelain),
       cmocka_unit_test(glowing_room_fills),
       cmocka_unit_test(depth_counts_segments),
       cmocka_unit_test(black_ball),

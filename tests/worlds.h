@@ -149,6 +149,7 @@ static inline void world_ready(world *w, size_t lights) {
             (uint32_t)s->mesh.triangle_count, BVH_SAH, &w->mem, NULL);
   w->path = (path_world){
       .scene = s, .tracer = bvh_tracer(&w->tree), .lights = lights > 0};
+  w->path.dfg = matter_table(s, PBR_GGX, &w->mem, NULL);
 }
 
 static inline void world_free(world *w) {

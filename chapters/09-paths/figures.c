@@ -65,9 +65,11 @@ static stage *stage_load(output *o, const char *path) {
   return s;
 }
 
-static path_world stage_world(const stage *s) {
-  return (path_world){
+static path_world stage_world(output *o, const stage *s) {
+  path_world w = {
       .scene = &s->scene, .tracer = bvh_tracer(&s->tree), .lights = true};
+  w.dfg = matter_table(&s->scene, PBR_GGX, &o->mem, o->threads);
+  return w;
 }
 
 static camera_view stage_view(const stage *s, int width, int height) {
@@ -87,7 +89,7 @@ typedef struct shot {
 } shot;
 
 static image take(output *o, const stage *s, shot how) {
-  path_world w = stage_world(s);
+  path_world w = stage_world(o, s);
   w.lights = !how.no_lights;
   w.max_depth = how.max_depth;
   camera_view v = stage_view(s, how.width, how.height);
@@ -163,7 +165,7 @@ static vec3 tiny_radiance(const path_world *w, ray r, rng *random,
 static void draw_mistakes(output *o) {
   enum { SIDE = 110, SPP = 28 };
   const stage *s = stage_load(o, "chapters/09-paths/room.scene");
-  path_world w = stage_world(s);
+  path_world w = stage_world(o, s);
   camera_view v = stage_view(s, SIDE, SIDE);
   image parts[MISTAKES];
   for (int m = 0; m < MISTAKES; m++) {

@@ -1,0 +1,224 @@
+// test_bsdf_rough.c — laws of the triple of metallic-roughness.
+
+#include "bsdf_rough.h"
+#include "num.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "rng.h"
+
+// n, or a fiftieth of it under the sanitizers.
+static long shortened(long n) {
+  return getenv("FACET_QUICK") != NULL ? n / 50 : n;
+}
+
+static vec3 at_angle(float cos_theta, float turns) {
+  vec2 c = num_circle(turns);
+  float s = sqrtf(1 - cos_theta * cos_theta);
+  return (vec3){s * c.x, s * c.y, cos_theta};
+}
+
+static const vec3 WHITE = {1, 1, 1}, COPPER = {0.9f, 0.6f, 0.4f};
+
+// The tables of both sets of formulas, the same for all tests.
+typedef struct tables {
+  arena mem;
+  dfg of[2];
+} tables;
+
+static int set_up(void **state) {
+  tables *t = calloc(1, sizeof *t);
+  dfg_build(&t->of[PBR_GGX], PBR_GGX, &t->mem, NULL);
+  dfg_build(&t->of[PBR_REPORT], PBR_REPORT, &t->mem, NULL);
+  *state = t;
+  return 0;
+}
+
+static int tear_down(void **state) {
+  tables *t = *state;
+  arena_free(&t->mem);
+  free(t);
+  return 0;
+}
+
+// The cosines and roughnesses at which samplers are put to the test: small
+// roughness, grazing light and both at once.
+typedef struct sampler_case {
+  float cos_o, roughness;
+} sampler_case;
+
+enum { CASES = 9 };
+static const sampler_case CASE[CASES] = {
+    {0.95f, 0.05f}, {0.5f, 0.05f}, {0.1f, 0.05f}, {0.95f, 0.3f}, {0.5f, 0.3f},
+    {0.1f, 0.3f},   {0.8f, 1},     {0.3f, 0.7f},  {0.02f, 0.5f}};
+
+// A rectangle of cosines and turns.
+typedef struct patch {
+  double z0, z1, t0, t1;
+} patch;
+
+// What is integrated: the density, or f cos of the first channel.
+typedef struct integrand {
+  const bsdf_rough *b;
+  vec3 wo;
+  bool light;
+} integrand;
+
+static double integrand_at(const integrand *g, double z, double turns) {
+  vec3 wi = at_angle((float)z, (float)turns);
+  if (!g->light) return (double)bsdf_rough_pdf(g->b, g->wo, wi);
+  return (double)(bsdf_rough_eval(g->b, g->wo, wi).x * wi.z);
+}
+
+// By the midpoints of 6 x 6 fields.
+static double patch_sum(const integrand *g, patch p) {
+  const int n = 6;
+  double sum = 0, dz = (p.z1 - p.z0) / n, dt = (p.t1 - p.t0) / n;
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < n; k++)
+      sum += integrand_at(g, p.z0 + (i + 0.5) * dz, p.t0 + (k + 0.5) * dt);
+  return sum * dz * dt * 2 * (double)PI;
+}
+
+// Halved both ways until it changes little; twice at least.
+static double patch_integral(const integrand *g, patch p, double whole,
+                             int depth) {
+  double z = (p.z0 + p.z1) / 2, t = (p.t0 + p.t1) / 2, part[4], sum = 0;
+  patch q[4] = {{p.z0, z, p.t0, t},
+                {z, p.z1, p.t0, t},
+                {p.z0, z, t, p.t1},
+                {z, p.z1, t, p.t1}};
+  for (int i = 0; i < 4; i++)
+    sum += part[i] = patch_sum(g, q[i]);
+  if (depth >= 9 || (depth >= 2 && fabs(sum - whole) < 2e-7)) return sum;
+  sum = 0;
+  for (int i = 0; i < 4; i++)
+    sum += patch_integral(g, q[i], part[i], depth + 1);
+  return sum;
+}
+
+enum { ROWS = 12, COLUMNS = 24, CELLS = ROWS * COLUMNS };
+
+static double cell_integral(const integrand *g, int cell) {
+  double row = cell / COLUMNS, column = cell % COLUMNS;
+  patch p = {row / ROWS, (row + 1) / ROWS, column / COLUMNS,
+             (column + 1) / COLUMNS};
+  return patch_integral(g, p, patch_sum(g, p), 0);
+}
+
+static double hemisphere_integral(const integrand *g) {
+  double sum = 0;
+  for (int i = 0; i < CELLS; i++)
+    sum += cell_integral(g, i);
+  return sum;
+}
+
+// The probability that a chi-square variable of k degrees of freedom exceeds
+// x.  Source: Wilson and Hilferty 1931.
+static double chi_square_tail(double x, int k) {
+  double v = 2.0 / (9.0 * k);
+  double z = (cbrt(x / k) - (1 - v)) / sqrt(v);
+  return 0.5 * erfc(z / sqrt(2.0));
+}
+
+// What the samples of one surface do.
+typedef struct counted {
+  double cells[CELLS + 1];  // the last: nothing scattered
+  double weight, weight2, largest;
+} counted;
+
+static counted count_samples(const bsdf_rough *b, vec3 wo, long n,
+                             uint64_t seed) {
+  counted c = {0};
+  for (long k = 0; k < n; k++) {
+    rng r = rng_of(seed, 0, (uint64_t)k);
+    float u[3] = {rng_next(&r), rng_next(&r), rng_next(&r)};
+    vec3 wi, weight;
+    if (!bsdf_rough_sample(b, wo, u, &wi, &weight)) {
+      c.cells[CELLS]++;
+      continue;
+    }
+    double turns = atan2((double)wi.y, (double)wi.x) / (2 * (double)PI);
+    int row = (int)(wi.z * ROWS);
+    int column = (int)((turns - floor(turns)) * COLUMNS);
+    if (row >= ROWS) row = ROWS - 1;
+    if (column >= COLUMNS) column = COLUMNS - 1;
+    c.cells[row * COLUMNS + column]++;
+    double w = (double)weight.x;
+    c.weight += w;
+    c.weight2 += w * w;
+    c.largest = fmax(c.largest, w);
+  }
+  return c;
+}
+
+// Chi-square of counts against probabilities, cells pooled until 5 are
+// expected.
+static double fit(const counted *c, const double *expected, long n) {
+  double chi = 0, want = 0, got = 0;
+  int cells = 0;
+  for (int i = 0; i <= CELLS; i++) {
+    want += expected[i] * (double)n;
+    got += c->cells[i];
+    if (want < 5 && i < CELLS) continue;
+    if (want >= 5) {
+      chi += (got - want) * (got - want) / want;
+      cells++;
+    } else {
+      assert_true(got < 30);
+    }
+    want = got = 0;
+  }
+  return cells < 2 ? 1 : chi_square_tail(chi, cells - 1);
+}
+
+static void check_sampler(bsdf_rough b, sampler_case at, uint64_t seed) {
+  vec3 wo = at_angle(at.cos_o, 0.13f);
+  long n = shortened(1000000);
+  counted c = count_samples(&b, wo, n, seed);
+  integrand density = {&b, wo, false}, light = {&b, wo, true};
+  double expected[CELLS + 1], all = 0;
+  for (int i = 0; i < CELLS; i++)
+    all += expected[i] = cell_integral(&density, i);
+  expected[CELLS] = fmax(1 - all, 0);
+  assert_true(all < 1 + 2e-4);
+  double f_cos = hemisphere_integral(&light);
+  double p = fit(&c, expected, n), mean = c.weight / (double)n;
+  double variance = fmax(c.weight2 / (double)n - mean * mean, 0);
+  double error = sqrt(variance / (double)n);
+  print_message("# cos_o %.2f r %.2f %s: p = %.3f, weight %.5f against %.5f "
+                "+- %.5f, largest %.3f\n",
+                (double)at.cos_o, (double)at.roughness,
+                b.terms.model == PBR_GGX ? "ggx" : "report", p, mean, f_cos,
+                error, c.largest);
+  assert_true(p > 1.1e-3);
+  assert_true(fabs(mean - f_cos) < 4 * error + 1e-4);
+}
+
+// Directions are distributed as the pdf says, and the mean weight is the
+// integral of f cos: metals and dielectrics, both sets of formulas.
+static void samples_follow_pdf(void **state) {
+  const tables *t = *state;
+  const dfg *ggx = &t->of[PBR_GGX], *report = &t->of[PBR_REPORT];
+  uint64_t seed = 1;
+  for (int i = 0; i < CASES; i++) {
+    float r = CASE[i].roughness;
+    check_sampler(bsdf_rough_of(ggx, WHITE, 1, r), CASE[i], seed++);
+    check_sampler(bsdf_rough_of(ggx, COPPER, 0, r), CASE[i], seed++);
+    check_sampler(bsdf_rough_of(report, COPPER, 0.3f, r), CASE[i], seed++);
+  }
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(samples_follow_pdf),
+  };
+  return cmocka_run_group_tests(tests, set_up, tear_down);
+}
