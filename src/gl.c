@@ -7,15 +7,24 @@
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
-#include <GL/osmesa.h>
 #include <dlfcn.h>
 #include <string.h>
+
+// What is used of GL/osmesa.h, which goes when OSMesa does.
+typedef struct osmesa_context osmesa_context;
+enum {
+  OSMESA_FORMAT = 0x22,
+  OSMESA_PROFILE = 0x33,
+  OSMESA_CORE_PROFILE = 0x34,
+  OSMESA_MAJOR = 0x36,
+  OSMESA_MINOR = 0x37
+};
 
 struct gl {
   gl_api api;
   const char *name;
-  OSMesaContext osmesa;  // NULL when it is not OSMesa's
-  void (*osmesa_destroy)(OSMesaContext);
+  osmesa_context *osmesa;  // NULL when it is not OSMesa's
+  void (*osmesa_destroy)(osmesa_context *);
   unsigned char *pixels;  // OSMesa wants a frame, even if nobody draws there
   EGLDisplay display;
   EGLContext egl;  // NULL when it is not EGL's
@@ -76,24 +85,19 @@ static bool load_functions(gl *g, gl_function (*load)(const char *name),
 static bool open_osmesa(gl *g, arena *mem, error *err) {
   void *library = gl_library_load(&OSMESA_LIBRARY, err);
   if (library == NULL) return false;
-  OSMesaContext (*create)(const int *, OSMesaContext) = NULL;
-  GLboolean (*current)(OSMesaContext, void *, GLenum, GLsizei, GLsizei) = NULL;
+  osmesa_context *(*create)(const int *, osmesa_context *) = NULL;
+  GLboolean (*current)(osmesa_context *, void *, GLenum, GLsizei, GLsizei) =
+      NULL;
   gl_function (*load)(const char *) = NULL;
   if (!find_symbol(&create, library, "OSMesaCreateContextAttribs", err) ||
       !find_symbol(&current, library, "OSMesaMakeCurrent", err) ||
       !find_symbol(&load, library, "OSMesaGetProcAddress", err) ||
       !find_symbol(&g->osmesa_destroy, library, "OSMesaDestroyContext", err))
     return false;
-  const int attributes[] = {OSMESA_FORMAT,
-                            OSMESA_RGBA,
-                            OSMESA_PROFILE,
-                            OSMESA_CORE_PROFILE,
-                            OSMESA_CONTEXT_MAJOR_VERSION,
-                            GL_MAJOR,
-                            OSMESA_CONTEXT_MINOR_VERSION,
-                            GL_MINOR,
-                            0};
-  OSMesaContext context = create(attributes, NULL);
+  const int attributes[] = {OSMESA_FORMAT,       GL_RGBA,      OSMESA_PROFILE,
+                            OSMESA_CORE_PROFILE, OSMESA_MAJOR, GL_MAJOR,
+                            OSMESA_MINOR,        GL_MINOR,     0};
+  osmesa_context *context = create(attributes, NULL);
   if (context == NULL)
     return fail(err, "OSMesa: no OpenGL %d.%d core context", GL_MAJOR,
                 GL_MINOR);

@@ -2,13 +2,6 @@
 
 #include "gl_make.h"
 
-// From EXT_texture_filter_anisotropic, which core OpenGL took in with 4.6; a
-// driver that lacks it records an error that nobody reads, and goes on.
-#define TEXTURE_MAX_ANISOTROPY 0x84FE
-
-// Samples along the longer axis of a pixel's footprint.
-#define ANISOTROPY 8.0f
-
 GLuint gl_texture_new(const gl *g, const gl_texture_spec *s) {
   const gl_api *f = gl_functions(g);
   GLuint name;
@@ -22,9 +15,7 @@ GLuint gl_texture_new(const gl *g, const gl_texture_spec *s) {
   f->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   f->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER,
                    s->mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
-  if (!s->mipmaps) return name;
-  f->GenerateMipmap(GL_TEXTURE_2D);
-  f->TexParameterf(GL_TEXTURE_2D, TEXTURE_MAX_ANISOTROPY, ANISOTROPY);
+  if (s->mipmaps) f->GenerateMipmap(GL_TEXTURE_2D);
   return name;
 }
 

@@ -15,7 +15,7 @@ typedef struct gl_texture_spec {
   GLenum type;         // GL_FLOAT
   const void *pixels;  // NULL: not filled
   GLenum wrap_s, wrap_t;
-  bool mipmaps;  // trilinear, and anisotropic where the driver can; else linear
+  bool mipmaps;  // trilinear; else bilinear
 } gl_texture_spec;
 
 // Rows of the data follow each other without padding; the first is at t = 0.

@@ -1,8 +1,9 @@
 #!/bin/sh
 # Each module includes only headers of modules before it in the Makefile's
 # list, every source file is in that list, only the pool knows pthreads, only
-# the arena allocates, and only the command line prints to stdout or exits.
-echo 1..4
+# the arena allocates, only the command line prints to stdout or exits, and only
+# what draws by OpenGL includes its headers.
+echo 1..5
 : "${MODULES:?run by make test}"
 awk -v order="$MODULES" '
 BEGIN { n = split(order, m, " "); for (i = 1; i <= n; i++) floor[m[i]] = i }
@@ -29,3 +30,6 @@ only 3 "only arena allocates" '\b(malloc|calloc|realloc|strdup|free)\(' arena
 only 4 "only the command line prints or exits" \
   '\b(printf|puts|putchar|exit|_exit|abort)\(|\b(stdout|stderr)\b' \
   "main|cmd_.*|option.*|progress|json|arena|picture"
+only 5 "only gl, raster and view include GL headers" \
+  'include (<(GL|EGL|GLFW|KHR)/|"gl_(api|make)\.h"|"glsl\.h")' \
+  "gl|gl_.*|glsl|raster|raster_.*|view|view_.*|post"
