@@ -38,7 +38,7 @@ CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material \
 CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah bvh_part bvh_build rays rays_make
 CHAPTER_5 := $(CHAPTER_4) gl_api gl gl_make glsl raster_settings raster_mesh \
              raster_maps raster_program raster_shadow raster_view raster_pass raster
-CHAPTER_6 := $(CHAPTER_5) microfacet dfg bsdf_rough
+CHAPTER_6 := $(CHAPTER_5) microfacet dfg bsdf_rough raster_rough
 CHAPTER_7 := $(CHAPTER_6) ibl raster_env
 CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
 CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_naive film render
@@ -47,7 +47,7 @@ LIBRARY   := $(CHAPTER_14)
 CHAPTERS  := 1 2 3 4 8 9 17
 # The command line, the only floor that prints and exits.
 COMMAND   := json tonemap progress option_table option cmd_shared cmd_signals \
-             cmd_output cmd_shot cmd_raster cmd_render cmd_info_scene \
+             cmd_output cmd_shot cmd_raster cmd_render cmd_view_say cmd_view cmd_info_scene \
              cmd_info cmd_compare cmd_bench cmd_bench_raster \
              cmd_help main
 MODULES   := $(LIBRARY) $(COMMAND)

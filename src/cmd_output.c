@@ -65,6 +65,11 @@ int output_plan(output *out, const options *o, arena *mem) {
   }
   int code = choose_format(out);
   if (code != EXIT_DONE) return code;
+  error err;
+  const char *pane = o->value[OPT_POST].text;
+  out->frosted = pane != NULL;
+  if (out->frosted && !post_parse(&out->pane, pane, &err))
+    return cmd_fail(o, EXIT_USAGE, "%s", err.text);
   out->depth = o->value[OPT_DEPTH].words == 1 ? 16 : 8;
   if (strcmp(out->path, "-") == 0) {
     if (o->value[OPT_AOV].given)
@@ -133,19 +138,27 @@ int output_protect_inputs(const output *out, const scene *s, arena *mem) {
                   bad);
 }
 
+// Whether exposure and curve change the picture.
+static bool is_developed(const output *out) {
+  bool radiance = out->o->value[OPT_SHADING].words < 3;
+  bool curve = out->o->value[OPT_TONEMAP].words != TONEMAP_NONE;
+  return out->format == PICTURE_PNG && radiance &&
+         (out->exposure != 0 || curve);
+}
+
 bool output_write(const output *out, const render_result *r, arena *mem,
                   error *err) {
   image im = r->color;
-  unsigned shading = out->o->value[OPT_SHADING].words;
-  tonemap_curve curve = (tonemap_curve)out->o->value[OPT_TONEMAP].words;
-  bool is_radiance = shading < 3;
-  if (out->format == PICTURE_PNG && is_radiance &&
-      (out->exposure != 0 || curve != TONEMAP_NONE)) {
+  if (out->frosted) {
+    im = post_frosted(&r->color, out->pane, mem, NULL);
+  } else if (is_developed(out)) {
     im = image_new(mem, im.width, im.height);
     memcpy(im.pixels, r->color.pixels,
            (size_t)im.width * (size_t)im.height * sizeof *im.pixels);
-    tonemap_apply(&im, out->exposure, curve);
   }
+  if (is_developed(out))
+    tonemap_apply(&im, out->exposure,
+                  (tonemap_curve)out->o->value[OPT_TONEMAP].words);
   // The companions first: where the picture is, everything is.
   for (int i = 0; i < RENDER_AOV_COUNT; i++)
     if (out->aov[i] != NULL && r->aov[i].pixels != NULL &&

@@ -5,6 +5,7 @@
 
 #include "cmd_shared.h"
 #include "picture.h"
+#include "post.h"
 #include "render.h"
 
 // The places a picture and its companions are written to.
@@ -15,6 +16,8 @@ typedef struct output {
   int depth;
   const char *aov[RENDER_AOV_COUNT];  // NULL where not asked for
   float exposure;                     // stops; set after the scene is read
+  bool frosted;                       // behind this pane
+  post_frost pane;                    // x0 and y0 set after the scene is read
 } output;
 
 // Decide all paths and check what can be checked before anything is read.

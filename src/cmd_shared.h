@@ -47,6 +47,7 @@ double cmd_median(double *values, size_t n);
 
 // The commands, each returning an exit code.
 int cmd_render(const options *o);
+int cmd_view(const options *o);
 int cmd_info(const options *o);
 int cmd_compare(const options *o);
 int cmd_bench_load(const options *o);

@@ -17,6 +17,7 @@
 static int run_command(const options *o) {
   switch (o->command->bit) {
   case CMD_RENDER: return cmd_render(o);
+  case CMD_VIEW: return cmd_view(o);
   case CMD_INFO: return cmd_info(o);
   case CMD_COMPARE: return cmd_compare(o);
   case CMD_BENCH_LOAD: return cmd_bench_load(o);

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 // The commands that draw a scene.
-enum { DRAWS = CMD_RENDER | CMD_BENCH_RASTER };
+enum { DRAWS = CMD_RENDER | CMD_VIEW | CMD_BENCH_RASTER };
 
 const command command_table[] = {
     {"render", CMD_RENDER, "SCENE", 1, 1, "make one picture",
@@ -17,6 +17,18 @@ const command command_table[] = {
      "leaves an old picture as it was.  The first SIGINT or SIGTERM finishes "
      "the pass, writes the picture so far and exits with 75; the second ends "
      "the program at once.  SIGUSR1 writes the picture so far and goes on."},
+    {"view", CMD_VIEW, "SCENE", 1, 1, "fly through a scene",
+     "SCENE is as for render.  The mouse turns; w and s or the arrows up and "
+     "down fly forward and back, a and d or left and right sideways, q and z "
+     "up and down.  Shift puts frosted glass before the picture.  1 and 2 make "
+     "metal-rough surfaces less and more metallic, 3 and 4 less and more "
+     "rough; 0 shows them only, and all again.  Space turns to the path "
+     "tracer, which refines while the camera rests, and back.  p prints the "
+     "facet render line for the view, F12 saves SCENE-1.png, h prints the "
+     "keys, Escape leaves.\n"
+     "The window needs libglfw3 and a display; --script needs neither.  Names "
+     "of keys in a script: w s a d q z up down left right shift 1 2 3 4 0 "
+     "space p f12 h esc."},
     {"info", CMD_INFO, "FILE...", 1, 1000000, "say what a file holds",
      "FILE is an .obj, a .scene, a picture, or - for an OBJ on standard "
      "input.  For meshes and scenes: counts, bounds, area, and for each "
@@ -58,8 +70,8 @@ const option option_table[OPTION_COUNT] = {
     [OPT_DEPTH] = {"depth", 0, CMD_RENDER, OPTION_WORD, "8|16", "8",
                    .help = "bits a channel of a PNG"},
     [OPT_RESOLUTION] =
-        {"resolution", 'r', CMD_RENDER, OPTION_SIZE, "WxH", "1280x720", 1,
-         65535,
+        {"resolution", 'r', CMD_RENDER | CMD_VIEW, OPTION_SIZE, "WxH",
+         "1280x720", 1, 65535,
          .help = "width and height in pixels; a scene file's film line "
                  "comes before the default"},
     [OPT_RESOLUTIONS] = {"resolution", 'r', CMD_BENCH_RASTER, OPTION_SIZES,
@@ -76,8 +88,8 @@ const option option_table[OPTION_COUNT] = {
          .help =
              "also write these, or some of them, as linear PFM files beside "
              "the output: NAME.normal.pfm beside NAME.png"},
-    [OPT_ENGINE] = {"engine", 0, CMD_RENDER, OPTION_WORD, "raster|path|auto",
-                    "raster",
+    [OPT_ENGINE] = {"engine", 0, CMD_RENDER | CMD_VIEW, OPTION_WORD,
+                    "raster|path|auto", "raster",
                     .help =
                         "raster: by OpenGL, in an instant, light from lamps "
                         "and sky; path: light along all ways, slowly; auto: "
@@ -140,13 +152,13 @@ const option option_table[OPTION_COUNT] = {
                    true,
                    "stop when the estimated relative error of the "
                    "picture is below this"},
-    [OPT_MAX_DEPTH] = {"max-depth", 0, CMD_RENDER, OPTION_WHOLE, "N", "0", 0,
-                       1000000,
+    [OPT_MAX_DEPTH] = {"max-depth", 0, CMD_RENDER | CMD_VIEW, OPTION_WHOLE, "N",
+                       "0", 0, 1000000,
                        .help =
                            "segments of a path: 1 sees lights, 2 adds direct "
                            "light; 0: no limit, paths end by chance"},
-    [OPT_SEED] = {"seed", 0, CMD_RENDER | CMD_BENCH_RAYS, OPTION_WHOLE, "N",
-                  "0", 0, 9007199254740992.0,
+    [OPT_SEED] = {"seed", 0, CMD_RENDER | CMD_VIEW | CMD_BENCH_RAYS,
+                  OPTION_WHOLE, "N", "0", 0, 9007199254740992.0,
                   .help = "another seed, other noise"},
     [OPT_INTEGRATOR] = {"integrator", 0, CMD_RENDER, OPTION_WORD, "auto|naive",
                         "auto", .help = "how paths look for light"},
@@ -155,15 +167,24 @@ const option option_table[OPTION_COUNT] = {
     [OPT_BVH] = {"bvh", 0, CMD_RENDER | CMD_BENCH_RAYS, OPTION_WORD,
                  "auto|binary|brute", "auto",
                  .help = "how triangles are found; brute tests every one"},
-    [OPT_EXPOSURE] = {"exposure", 0, CMD_RENDER, OPTION_NUMBER, "STOPS", NULL,
-                      -64, 64,
+    [OPT_EXPOSURE] = {"exposure", 0, CMD_RENDER | CMD_VIEW, OPTION_NUMBER,
+                      "STOPS", NULL, -64, 64,
                       .help =
                           "brightness of a PNG, one stop doubles (default: the "
                           "scene file's, else 0)"},
-    [OPT_TONEMAP] = {"tonemap", 0, CMD_RENDER, OPTION_WORD,
+    [OPT_TONEMAP] = {"tonemap", 0, CMD_RENDER | CMD_VIEW, OPTION_WORD,
                      "none|reinhard|aces", "none",
                      .help =
                          "curve that brings a PNG's highlights below white"},
+    [OPT_POST] = {"post", 0, CMD_RENDER | CMD_VIEW, OPTION_TEXT,
+                  "frosted[=RADIUS]",
+                  .help = "the picture behind a pane of frosted glass, whose "
+                          "grains look up to RADIUS pixels away; frosted "
+                          "alone is frosted=8"},
+    [OPT_SCRIPT] = {"script", 0, CMD_VIEW, OPTION_TEXT, "FILE",
+                    .help = "no window: do what FILE says, one statement a "
+                            "line: key NAME [down|up], mouse DX DY, wait "
+                            "SECONDS, spp N, frame OUT"},
     [OPT_SCENE] = {"scene", 0, CMD_INFO, OPTION_SWITCH,
                    .help = "print a complete scene file for what is in force"},
     [OPT_METRIC] = {"metric", 0, CMD_COMPARE, OPTION_WORD,
@@ -203,9 +224,9 @@ const option option_table[OPTION_COUNT] = {
          .help = "worker threads (default: what CPU affinity, the cgroup's "
                  "quota and SLURM_CPUS_PER_TASK allow)"},
     [OPT_STRICT] =
-        {"strict", 0, CMD_RENDER, OPTION_SWITCH,
+        {"strict", 0, CMD_RENDER | CMD_VIEW, OPTION_SWITCH,
          .help = "a warning is an error: exit status 1, nothing written"},
-    [OPT_JSON] = {"json", 0, CMD_ALL & ~CMD_HELP, OPTION_SWITCH,
+    [OPT_JSON] = {"json", 0, CMD_ALL & ~(CMD_HELP | CMD_VIEW), OPTION_SWITCH,
                   .help = "print one JSON object on standard output"},
     [OPT_QUIET] = {"quiet", 'q', DRAWS | CMD_COMPARE, OPTION_SWITCH,
                    .help = "print errors only"},
@@ -218,8 +239,7 @@ const option option_table[OPTION_COUNT] = {
 };
 
 const char *const later_words[] = {
-    "view",  "ibl",    "merge", "bench error", "bench ibl",
-    "wide",  "mis",    "sobol", "post",        "checkpoint",
-    "every", "resume", "shard", "explain",     ".exr",
-    ".part", "exr",    "part",  NULL,
+    "ibl",   "merge",      "bench error", "bench ibl", "wide",  "mis",
+    "sobol", "checkpoint", "every",       "resume",    "shard", "explain",
+    ".exr",  ".part",      "exr",         "part",      NULL,
 };

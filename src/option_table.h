@@ -14,7 +14,8 @@ enum {
   CMD_BENCH_RAYS = 16,
   CMD_BENCH_RASTER = 32,
   CMD_HELP = 64,
-  CMD_ALL = 127
+  CMD_VIEW = 128,
+  CMD_ALL = 255
 };
 
 // A command: its one or two words, and what it wants after the options.
@@ -92,6 +93,8 @@ typedef enum option_id {
   OPT_BVH,
   OPT_EXPOSURE,
   OPT_TONEMAP,
+  OPT_POST,
+  OPT_SCRIPT,
   OPT_SCENE,
   OPT_METRIC,
   OPT_FAIL,
