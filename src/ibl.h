@@ -5,18 +5,8 @@
 #define IBL_H
 
 #include "env.h"
+#include "ibl_level.h"
 #include "microfacet.h"
-#include "pool.h"
-
-// One sum as a function on the sphere.  texels are coefficients of a cubic
-// B-spline on nodes at u = i / width and v = j / (height - 1), so that first
-// and last row are the poles; a row more lies before the first and after the
-// last: (height + 2) * width texels.
-typedef struct ibl_level {
-  float roughness;  // below 0: irradiance
-  int width, height;
-  vec3 *texels;
-} ibl_level;
 
 // The most levels, and the least roughness that has one of its own: below it
 // the lobe is narrower than a texel of a 1k map.
@@ -57,9 +47,5 @@ vec3 ibl_irradiance(const ibl *b, vec3 n);
 // between levels; below the first, from the environment itself to the level by
 // the fourth power, as the width of the lobe goes.
 vec3 ibl_radiance(const ibl *b, vec3 d, float roughness);
-
-// The value of one level at (u, v), u before rotation.  For ibl_irradiance
-// and ibl_radiance, and the shader's twin of it.
-vec3 ibl_level_at(const ibl_level *l, float u, float v);
 
 #endif
