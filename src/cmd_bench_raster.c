@@ -156,10 +156,10 @@ static void print_frames_csv(const bench_raster *b, const bench_line *lines,
   putchar('\n');
   for (size_t i = 0; i < n; i++) {
     const bench_line *l = &lines[i];
-    printf("%d,%d,%lld,%.6f,%.6f", l->width, l->height, b->frames, l->seconds,
+    printf("%d,%d,%lld,%.9g,%.9g", l->width, l->height, b->frames, l->seconds,
            ms_per_frame(b, l));
     for (int k = 0; k < PASSES; k++)
-      printf(",%.6f", pass_ms(l, k));
+      printf(",%.9g", pass_ms(l, k));
     putchar('\n');
   }
 }

@@ -44,6 +44,37 @@ j = json.load(open("load.json"))
 assert set(j["seconds"]) == {"read_parse", "merge", "triangulate", "normals", "total"} == set(j["mb_per_second"])
 assert j["triangles"] == 3 and j["bytes"] > 50
 E
+# Frames of two sizes: the table, and the same as JSON and CSV.
+bench() { "$facet" bench raster a.obj -r 64x48,32x16 --frames 5 --repeat 2 "$@"; }
+exits 0 "bench raster" bench
+ok "a line for each size" sh -c 'grep -c "^64x48 \|^32x16 " out | grep -qx 2 && grep -q "5 frames" out'
+bench --json --msaa 1 >raster.json
+bench --csv >raster.csv
+ok "frames, passes and who draws, for machines" python3 - <<'E'
+import csv, json
+j = json.load(open("raster.json"))
+assert j["frames"] == 5 and j["triangles"] == 3 and j["msaa"] == 1 and j["gl"]["renderer"]
+assert [(s["width"], s["height"]) for s in j["sizes"]] == [(64, 48), (32, 16)]
+rows = list(csv.DictReader(open("raster.csv")))
+assert [(r["width"], r["height"]) for r in rows] == [("64", "48"), ("32", "16")]
+for s in j["sizes"] + rows:
+    assert set(s) >= {"shadow_ms", "surface_ms", "sky_ms", "resolve_ms", "read_ms"}
+    assert 0 < float(s["seconds"]) and abs(float(s["seconds"]) * 200 / float(s["ms_per_frame"]) - 1) < 1e-3
+    assert float(s["shadow_ms"]) == 0 < float(s["read_ms"])
+E
+cat >lit.scene <<'E'
+mesh a.obj
+light point 0 3 0 intensity 20 20 20
+E
+"$facet" bench raster lit.scene --json -r 32x16 --frames 2 >shadow.json
+"$facet" bench raster lit.scene --json -r 32x16 --frames 2 --shadows off >none.json
+ok "a light has shadow maps, unless they are off" python3 -c '
+import json
+on, off = [json.load(open(f))["sizes"][0]["shadow_ms"] for f in ("shadow.json", "none.json")]
+assert on > 0 == off, (on, off)'
+exits 2 "no size" "$facet" bench raster a.obj -r 64x48,
+exits 2 "half a size" "$facet" bench raster a.obj -r 64x48,32
+exits 3 "bench raster of nothing" "$facet" bench raster missing.obj
 for kind in primary ao aod bounce; do
   ok "--kind $kind" "$facet" bench rays a.obj --kind $kind --repeat 1
 done

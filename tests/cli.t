@@ -33,6 +33,7 @@ for command in render info compare "bench load" "bench rays" "bench raster"; do
     N|K|SECONDS|REL|S|STOPS|T|DEG) values=1 ;;
     X,Y,Z) values=1,-2,.5e1 ;;
     WxH) values=8x4 ;;
+    "frosted[=RADIUS]") values="frosted frosted=3" ;;
     WxH,...) values="8x4 8x4,16x8,1x1" ;;
     X0,Y0,X1,Y1) values=0,0,4,4 ;;
     "FILE|R,G,B|none") values="1,1,1 none x.hdr" ;;
@@ -43,6 +44,7 @@ for command in render info compare "bench load" "bench rays" "bench raster"; do
     for value in $values; do
       for form in "--$flag $value" "--$flag=$value"; do
         [ "$value" = - ] && form="--$flag"
+        [ "$flag" = aov ] && form="$form --engine path"
         # shellcheck disable=SC2086
         "$facet" $command $form $operands >"$T/out" 2>"$T/err"
         [ $? = 3 ] || wrong="$wrong $form"
@@ -110,6 +112,8 @@ exits 2 "too many operands" "$facet" render a.obj b.obj
 exits 2 "an unknown suffix" "$facet" render a.obj -o x.xyz
 exits 2 "-o - without --format" "$facet" render a.obj -o -
 exits 2 "-o - with --json" "$facet" render a.obj -o - --format png --json
+exits 2 "variance without paths" "$facet" render a.obj --aov variance
+says "--engine path" "and who has it"
 exits 2 "a crop outside of the picture" "$facet" render a.obj -r 8x8 --crop 0,0,9,8
 exits 2 "an empty crop" "$facet" render a.obj -r 8x8 --crop 3,0,3,8
 exits 2 "a camera that does not exist" "$facet" render a.obj --camera nobody
