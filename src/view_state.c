@@ -30,7 +30,8 @@ const view_key_name VIEW_KEYS[VIEW_KEY_COUNT] = {
     [VIEW_ESC] = {"esc", "leave"},
 };
 
-// Seconds to fly along the diagonal of the scene's box.
+// Seconds to fly along the diagonal of the scene's box, or to the camera's
+// target where that is nearer: a ground that goes on for ever says little.
 #define CROSSING_SECONDS 5.0f
 
 // Turns of the camera for a pixel of the mouse: 0.15 degrees.
@@ -63,7 +64,7 @@ view_state view_start(const camera *c, vec3 lo, vec3 hi, bool has_rough) {
   s.tilt_limit = fmaxf(TILT_LIMIT, fabsf(s.tilt));
   float size = vec3_length(vec3_sub(hi, lo));
   bool sized = hi.x >= lo.x && size > 0 && isfinite(size);
-  s.speed = (sized ? size : s.distance) / CROSSING_SECONDS;
+  s.speed = (sized ? fminf(size, s.distance) : s.distance) / CROSSING_SECONDS;
   return s;
 }
 

@@ -30,6 +30,7 @@ static const gl_library GLFW_LIBRARY = {
   X(void, PollEvents, (void)) \
   X(void, WaitEventsTimeout, (double)) \
   X(void, SetInputMode, (GLFWwindow *, int, int)) \
+  X(int, GetWindowAttrib, (GLFWwindow *, int)) \
   X(int, GetKey, (GLFWwindow *, int)) \
   X(void, GetCursorPos, (GLFWwindow *, double *, double *)) \
   X(void, SetWindowTitle, (GLFWwindow *, const char *)) \
@@ -50,6 +51,7 @@ struct view_window {
   GLuint texture, framebuffer;  // where a picture lies before it is shown
   bool down[VIEW_KEY_COUNT];    // when somebody last asked
   double x, y;                  // of the mouse at that time
+  bool caught;                  // the pointer has jumped to its cage
 };
 
 // A key by its number in GLFW.
@@ -175,6 +177,23 @@ static void look_at_keys(const view_window *w, bool down[VIEW_KEY_COUNT]) {
   if (w->glfw.WindowShouldClose(w->window)) down[VIEW_ESC] = true;
 }
 
+// How the mouse has moved.  The first motion after the window got the focus
+// is none of the hand's: the pointer is put into the middle.
+static view_event mouse_event(view_window *w) {
+  double x, y;
+  w->glfw.GetCursorPos(w->window, &x, &y);
+  view_event e = {.kind = VIEW_EVENT_MOUSE,
+                  .dx = (float)(x - w->x),
+                  .dy = (float)(y - w->y)};
+  w->x = x;
+  w->y = y;
+  bool moved = e.dx != 0 || e.dy != 0;
+  if (moved && !w->caught) e.dx = e.dy = 0;
+  bool focused = w->glfw.GetWindowAttrib(w->window, GLFW_FOCUSED);
+  w->caught = focused && (w->caught || moved);
+  return e;
+}
+
 size_t view_window_poll(view_window *w, double seconds,
                         view_event events[VIEW_WINDOW_EVENTS]) {
   if (seconds > 0)
@@ -190,14 +209,8 @@ size_t view_window_poll(view_window *w, double seconds,
           .kind = VIEW_EVENT_KEY, .key = (view_key)key, .down = down[key]};
     w->down[key] = down[key];
   }
-  double x, y;
-  w->glfw.GetCursorPos(w->window, &x, &y);
-  if (x != w->x || y != w->y)
-    events[n++] = (view_event){.kind = VIEW_EVENT_MOUSE,
-                               .dx = (float)(x - w->x),
-                               .dy = (float)(y - w->y)};
-  w->x = x;
-  w->y = y;
+  view_event moved = mouse_event(w);
+  if (moved.dx != 0 || moved.dy != 0) events[n++] = moved;
   return n;
 }
 
