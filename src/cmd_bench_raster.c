@@ -95,8 +95,7 @@ static int measure_size(bench_raster *b, bench_line *line) {
   bool ok = raster_job_upload(&b->job, &b->shot, &once, &err) &&
             measure(&warm, b, false, &err) && draw_frames(b, line, &err) &&
             measure_passes(b, &line->passes, &err);
-  if (b->job.r != NULL) raster_free(b->job.r);
-  b->job.r = NULL;
+  raster_job_drop(&b->job);
   arena_free(&once);
   return ok ? EXIT_DONE : cmd_fail(b->shot.o, EXIT_RESOURCES, "%s", err.text);
 }

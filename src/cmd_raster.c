@@ -3,6 +3,7 @@
 #include "cmd_raster.h"
 
 #include "clock.h"
+#include "matter.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -48,7 +49,28 @@ raster_settings raster_job_settings(const shot *s) {
   };
 }
 
+// Metallic-roughness as the path engine has it: the table is the same.
+static void ready_rough(raster_job *job, const shot *s) {
+  double start = clock_seconds();
+  pbr_model model = job->settings.model == RASTER_REPORT ? PBR_REPORT : PBR_GGX;
+  if (job->table == NULL)
+    job->table = matter_table(&s->scene, model, s->mem, s->threads);
+  job->table_seconds += clock_seconds() - start;
+  if (job->table == NULL) return;
+  arena scratch = {0};
+  job->rough = raster_rough_new(job->g, job->table, &scratch);
+  job->settings.metal_rough = raster_rough_piece(&job->rough);
+  arena_free(&scratch);
+}
+
 bool raster_job_upload(raster_job *job, const shot *s, arena *mem, error *err) {
+  const dfg *table =
+      matter_table(&s->scene, (pbr_model)job->settings.model, mem, s->threads);
+  if (table != NULL) {
+    job->rough = raster_rough_new(job->g, table, mem);
+    job->settings.metal_rough = raster_rough_piece(&job->rough);
+  }
+  ready_rough(job, s);
   return raster_new(&job->r, job->g, &s->scene, &job->settings, mem, err);
 }
 
@@ -92,8 +114,15 @@ void raster_job_json(json *j, const raster_job *job) {
   json_close(j, '{');
 }
 
-void raster_job_close(raster_job *job) {
+void raster_job_drop(raster_job *job) {
   if (job->r != NULL) raster_free(job->r);
+  if (job->rough.texture != 0) raster_rough_free(job->g, &job->rough);
+  job->r = NULL;
+  job->rough = (raster_rough){0};
+}
+
+void raster_job_close(raster_job *job) {
+  raster_job_drop(job);
   gl_close(job->g);
   *job = (raster_job){0};
 }

@@ -4,15 +4,21 @@
 #define CMD_RASTER_H
 
 #include "cmd_shot.h"
+#include "dfg.h"
 #include "raster.h"
+#include "raster_rough.h"
 #include "render.h"
 
 typedef struct raster_job {
   gl *g;  // NULL before raster_job_open
   raster *r;
+  raster_rough rough;  // what settings.metal_rough reads
   raster_settings settings;
+  const dfg *table;    // of settings.model; NULL where nothing needs it
+  raster_rough rough;  // that table, in the context
   raster_times times;
-  double gl_seconds;  // to open the context
+  double gl_seconds;     // to open the context
+  double table_seconds;  // to make the table
 } raster_job;
 
 // Open the context that --gl asks for.  On failure (exit status 5) err names
@@ -22,7 +28,8 @@ bool raster_job_open(raster_job *job, const options *o, arena *mem, error *err);
 // What the options say to the engine, for the shot's film.
 raster_settings raster_job_settings(const shot *s);
 
-// Upload the shot's scene, to be drawn by job->settings; exit status 5 on
+// Upload the shot's scene, to be drawn by job->settings, and what its
+// materials need besides, which is put into the settings; exit status 5 on
 // failure.
 bool raster_job_upload(raster_job *job, const shot *s, arena *mem, error *err);
 
@@ -33,6 +40,9 @@ bool raster_job_draw(render_result *out, raster_job *job, const shot *s,
 
 // The members "gl", with the names of the context, and "msaa".
 void raster_job_json(json *j, const raster_job *job);
+
+// Take back what raster_job_upload did.
+void raster_job_drop(raster_job *job);
 
 // Release all of it; a job that is not open is fine.
 void raster_job_close(raster_job *job);

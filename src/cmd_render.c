@@ -155,9 +155,8 @@ static void choose_settings(render_job *j) {
   j->world = (path_world){.scene = &sh->scene,
                           .lights = v[OPT_LIGHTS].words == 0,
                           .max_depth = (int)v[OPT_MAX_DEPTH].whole[0]};
-  j->world.dfg = matter_table(&sh->scene,
-                              (pbr_model)v[OPT_PBR_MODEL].words, sh->mem,
-                              sh->threads);
+  j->world.dfg = matter_table(&sh->scene, (pbr_model)v[OPT_PBR_MODEL].words,
+                              sh->mem, sh->threads);
 }
 
 // The most memory that the process has had, in bytes.
@@ -196,6 +195,7 @@ static void json_seconds(json *j, const render_job *job) {
     json_number(j, "build", job->tree.seconds);
   } else {
     json_number(j, "gl", job->raster.gl_seconds);
+    json_number(j, "table", job->raster.table_seconds);
     json_number(j, "upload", t->upload);
     json_number(j, "compile", t->compile);
     json_number(j, "shadow", t->shadow);
