@@ -12,7 +12,6 @@
 typedef struct raster_job {
   gl *g;  // NULL before raster_job_open
   raster *r;
-  raster_rough rough;  // what settings.metal_rough reads
   raster_settings settings;
   const dfg *table;    // of settings.model; NULL where nothing needs it
   raster_rough rough;  // that table, in the context
