@@ -96,11 +96,14 @@ static void legendre_start(legendre *g, const wave_job *job, int m) {
   while (g->first < job->rows - 1 &&
          m > (job->degree + 1) * job->sine[g->first] + 40)
     g->first++;
+  double scale = 0.28209479177387814;  // 1 / sqrt(4 pi)
+  for (int i = 1; i <= m; i++)
+    scale *= sqrt((2 * i + 1) / (2.0 * i));
   for (int j = 0; j < job->rows; j++) {
-    double p = 0.28209479177387814;  // 1 / sqrt(4 pi)
-    for (int i = 1; i <= m && j >= g->first; i++)
-      p *= job->sine[j] * sqrt((2 * i + 1) / (2.0 * i));
-    g->p0[j] = 0, g->p1[j] = p;
+    double power = j >= g->first ? scale : 0, square = job->sine[j];
+    for (int bits = m; bits != 0; bits >>= 1, square *= square)
+      if (bits % 2 == 1) power *= square;
+    g->p0[j] = 0, g->p1[j] = power;
   }
 }
 
