@@ -60,7 +60,8 @@ view_state view_start(const camera *c, vec3 lo, vec3 hi, bool has_rough) {
   vec3 level = vec3_mad(forward, -sine, s.up);
   s.ahead = vec3_length(level) > 0 ? vec3_unit(level) : level_to(s.up);
   s.side = vec3_cross(s.ahead, s.up);
-  s.tilt = 0.25f - 0.5f * num_acos_pi(sine);
+  s.tilt = num_turns(sine, vec3_length(level));
+  if (s.tilt > 0.5f) s.tilt -= 1;
   s.tilt_limit = fmaxf(TILT_LIMIT, fabsf(s.tilt));
   float size = vec3_length(vec3_sub(hi, lo));
   bool sized = hi.x >= lo.x && size > 0 && isfinite(size);

@@ -1,0 +1,150 @@
+#!/bin/bash
+# facet view: scripts replayed without a window, and one real window.
+. tests/tap.sh
+scene=$root/scenes/materials.scene
+cd "$T" || exit 1
+view() { "$facet" view -q "$scene" -r 96x64 "$@"; }
+
+cat >fly.txt <<'END'
+frame start.png
+key w down
+wait 1
+key w up
+frame there.png
+key shift
+frame frosted.png
+key shift
+mouse 40 10
+frame turned.png
+key p
+END
+exits 0 "a script is replayed" view --script fly.txt
+cp out line
+mkdir again && cp fly.txt again
+(cd again && view --script fly.txt >/dev/null)
+for name in start there frosted turned; do
+  ok "$name.png is the same again" cmp $name.png again/$name.png
+done
+differ() { # A B
+  exits 1 "$1 and $2 differ" "$facet" compare --fail 0.02 "$1.png" "$2.png"
+}
+differ start there
+differ there frosted
+differ there turned
+
+# What P prints makes the same picture.
+ok "p prints a command" grep -q "^facet render .*materials.scene.* -r 96x64 .*--eye=" line
+sed "s,^facet,\"$facet\"," line >command
+echo "-q -o command.png" | tr '\n' ' ' >tail
+ok "that command runs" sh -c "$(cat command) $(cat tail)"
+ok "it is the view" "$facet" compare --fail 0 command.png turned.png
+
+# The path tracer, its samples, and exposure.
+cat >paths.txt <<'END'
+key space
+spp 3
+frame paths.pfm
+frame paths.png
+key 0
+frame balls.png
+END
+exits 0 "by the path tracer" view --script paths.txt --exposure 1
+"$facet" render -q "$scene" -r 96x64 --engine path --spp 3 -o render.pfm
+ok "its frame is facet render's, to the bit" cmp paths.pfm render.pfm
+"$facet" render -q "$scene" -r 96x64 --engine path --spp 3 --exposure 1 -o render.png
+ok "exposed as facet render does" cmp paths.png render.png
+differ paths balls
+view --script fly.txt --post frosted=20 >/dev/null
+"$facet" render -q "$scene" -r 96x64 --post frosted=20 -o render.png
+ok "the pane of --post" cmp start.png render.png
+
+# What is wrong is said.
+exits 2 "--post foggy" view --post foggy
+says "frosted=RADIUS" "that names what there is"
+exits 3 "a script that is missing" view --script none.txt
+echo "key w dwn" >bad.txt
+exits 3 "a script that is wrong" view --script bad.txt
+says "bad.txt:1: expected key NAME" "with its line"
+echo "frame a.jpg" >bad.txt
+exits 3 "a frame in no format" view --script bad.txt
+says "bad.txt:1: a.jpg" "with its line, too"
+echo "frame none/a.png" >bad.txt
+exits 4 "a frame into no folder" view --script bad.txt
+
+# No display; then no library, by a file of that name that is none.
+exits 5 "no display" env -u DISPLAY -u WAYLAND_DISPLAY "$facet" view -q "$scene"
+says "--script" "that says what to do"
+mkdir fake && echo none >fake/libglfw.so.3 && cp fake/libglfw.so.3 fake/libglfw.so
+exits 5 "no library" env -u DISPLAY LD_LIBRARY_PATH="$T/fake" "$facet" view -q "$scene"
+says "libglfw3" "that names the package"
+
+# One window on a screen of its own.
+window() {
+  for tool in Xvfb xdotool; do
+    command -v $tool >/dev/null || { skip "a window" "no $tool"; return; }
+  done
+  if grep -q "cannot load" err && ! ldconfig -p | grep -q libglfw.so.3; then
+    skip "a window" "no libglfw3"; return
+  fi
+  Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 3>display 2>xvfb.log &
+  server=$!
+  for _ in $(seq 100); do [ -s display ] && break; sleep 0.1; done
+  DISPLAY=:$(cat display)
+  export DISPLAY
+  "$facet" view "$scene" -r 160x100 2>said.txt >p.txt &
+  viewer=$!
+  for _ in $(seq 100); do
+    w=$(xdotool search --name facet 2>/dev/null | head -n 1)
+    [ -n "$w" ] && break
+    sleep 0.1
+  done
+  xdotool windowfocus "$w"
+  sleep 1
+  saved=0
+  save() { # once more, and wait for the file
+    saved=$((saved + 1))
+    xdotool key F12
+    for _ in $(seq 100); do
+      grep -q "materials-$saved.png: written" said.txt && break
+      sleep 0.1
+    done
+  }
+  save
+  xdotool keydown w; sleep 0.7; xdotool keyup w; sleep 0.3
+  save
+  xdotool mousemove_relative 2 1; sleep 0.3
+  xdotool mousemove_relative 60 10; sleep 0.3
+  save
+  xdotool key Shift_L; sleep 0.5
+  save
+  xdotool key Shift_L; xdotool key space
+  for _ in $(seq 100); do
+    xdotool getwindowname "$w" | grep -q "samples a pixel" && break
+    sleep 0.1
+  done
+  xdotool getwindowname "$w" >title.txt
+  save
+  xdotool key p; sleep 0.3
+  xdotool key Escape
+  for _ in $(seq 50); do kill -0 $viewer 2>/dev/null || break; sleep 0.1; done
+  wait $viewer
+  code=$?
+  kill $server
+  if [ $code = 0 ]; then pass "a window opens, and Escape closes it"
+  else cp said.txt err; fail "a window opens, and Escape closes it (exit $code)"; fi
+  ok "F12 saves a picture that is not black" python3 - <<P
+import json, subprocess
+i = json.loads(subprocess.check_output(["$facet", "info", "--json", "materials-1.png"]))
+assert i["width"] == 160 and min(i["max"]) > 0.3, i
+P
+  for pair in "1 2 W flies" "2 3 the mouse turns" "3 4 Shift frosts" "3 5 Space traces paths"; do
+    set -- $pair
+    a=$1 b=$2
+    shift 2
+    exits 1 "in the window $*" "$facet" compare --fail 0.01 materials-$a.png materials-$b.png
+  done
+  ok "the title counts samples" grep -q "samples a pixel" title.txt
+  ok "p prints a command" grep -q "^facet render .*--engine=path" p.txt
+}
+window
+finish
