@@ -5,7 +5,9 @@ uniform sampler2DArrayShadow u_shadow;
 uniform mat4 u_shadow_of[SHADOW_LAYERS];  // to the clip space of a layer
 
 // The look-up is moved off the surface by this many texels.
-const float SHADOW_OFFSET = 2.0;
+#ifndef SHADOW_OFFSET
+#define SHADOW_OFFSET 2.0
+#endif
 
 // By light: the first layer, and the side of a texel in world units (for a
 // point light at distance 1).

@@ -10,9 +10,11 @@
 #include <dlfcn.h>
 #include <string.h>
 
-// What is used of GL/osmesa.h, which goes when OSMesa does.
 typedef struct osmesa_context osmesa_context;
-enum {
+
+// The attributes of an OSMesa context, as in GL/osmesa.h, a header that goes
+// when OSMesa does.
+enum osmesa_attribute {
   OSMESA_FORMAT = 0x22,
   OSMESA_PROFILE = 0x33,
   OSMESA_CORE_PROFILE = 0x34,
@@ -36,9 +38,13 @@ struct gl {
 static const gl_library OSMESA_LIBRARY = {
     "OSMesa",
     {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", NULL},
-    "libosmesa6"};
+    "libosmesa6",
+};
 static const gl_library EGL_LIBRARY = {
-    "EGL", {"libEGL.so.1", "libEGL.so", NULL, NULL}, "libegl1 libgl1-mesa-dri"};
+    "EGL",
+    {"libEGL.so.1", "libEGL.so", NULL, NULL},
+    "libegl1 libgl1-mesa-dri",
+};
 
 // OpenGL 3.3 core: the last version that wants nothing a decade old computer
 // or a CPU lacks.

@@ -33,12 +33,14 @@ static const char *const KIND_DEFINES[] = {
     [MATERIAL_BLINN_PHONG] = "#define KIND_BLINN_PHONG\n",
     [MATERIAL_METAL_ROUGH] = "#define KIND_METAL_ROUGH\n",
     [MATERIAL_MIRROR] = "#define KIND_MIRROR\n",
-    [MATERIAL_GLASS] = "#define KIND_GLASS\n"};
+    [MATERIAL_GLASS] = "#define KIND_GLASS\n",
+};
 static const char *const KIND_FILES[] = {
     [MATERIAL_BLINN_PHONG] = "blinn_phong.glsl",
     [MATERIAL_METAL_ROUGH] = "metal_rough.glsl",
     [MATERIAL_MIRROR] = "mirror.glsl",
-    [MATERIAL_GLASS] = "clear.glsl"};
+    [MATERIAL_GLASS] = "clear.glsl",
+};
 
 static const char *or_nothing(const char *text) {
   return text == NULL ? "" : text;
