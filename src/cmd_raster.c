@@ -64,12 +64,6 @@ static void ready_rough(raster_job *job, const shot *s) {
 }
 
 bool raster_job_upload(raster_job *job, const shot *s, arena *mem, error *err) {
-  const dfg *table =
-      matter_table(&s->scene, (pbr_model)job->settings.model, mem, s->threads);
-  if (table != NULL) {
-    job->rough = raster_rough_new(job->g, table, mem);
-    job->settings.metal_rough = raster_rough_piece(&job->rough);
-  }
   ready_rough(job, s);
   return raster_new(&job->r, job->g, &s->scene, &job->settings, mem, err);
 }
