@@ -65,7 +65,10 @@ static void ready_rough(raster_job *job, const shot *s) {
 
 bool raster_job_upload(raster_job *job, const shot *s, arena *mem, error *err) {
   ready_rough(job, s);
-  return raster_new(&job->r, job->g, &s->scene, &job->settings, mem, err);
+  if (!raster_new(&job->r, job->g, &s->scene, &job->settings, mem, err))
+    return false;
+  job->samples = raster_last_frame(job->r).samples;
+  return true;
 }
 
 // Zero the pixels that are not finite; how many there were, and the first.
@@ -101,7 +104,7 @@ bool raster_job_draw(render_result *out, raster_job *job, const shot *s,
 }
 
 void raster_job_json(json *j, const raster_job *job) {
-  json_count(j, "msaa", (unsigned long long)job->settings.msaa);
+  json_count(j, "msaa", (unsigned long long)job->samples);
   json_open(j, "gl", '{');
   json_text(j, "backend", gl_backend_name(job->g));
   json_text(j, "renderer", gl_renderer(job->g));

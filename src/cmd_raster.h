@@ -15,6 +15,7 @@ typedef struct raster_job {
   raster_settings settings;
   const dfg *table;    // of settings.model; NULL where nothing needs it
   raster_rough rough;  // that table, in the context
+  int samples;         // a pixel, as the driver allows
   raster_times times;
   double gl_seconds;     // to open the context
   double table_seconds;  // to make the table

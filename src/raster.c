@@ -222,7 +222,7 @@ void raster_hide(raster *r, size_t which, bool hidden) {
 
 raster_frame raster_last_frame(const raster *r) {
   const gl_target *t = &r->stock.target;
-  return (raster_frame){t->read, t->resolved, t->width, t->height};
+  return (raster_frame){t->read, t->resolved, t->width, t->height, t->samples};
 }
 
 raster_times raster_last_times(const raster *r) {

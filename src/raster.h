@@ -64,7 +64,7 @@ void raster_hide(raster *r, size_t which, bool hidden);
 // a GL name, as are those of its resolved colour texture.
 typedef struct raster_frame {
   unsigned framebuffer, texture;
-  int width, height;
+  int width, height, samples;
 } raster_frame;
 raster_frame raster_last_frame(const raster *r);
 
