@@ -130,7 +130,7 @@ static void describe_attribute(const gl_api *f, GLuint number, GLint floats,
                                size_t offset) {
   f->EnableVertexAttribArray(number);
   f->VertexAttribPointer(number, floats, GL_FLOAT, GL_FALSE, sizeof(vertex),
-                         (const char *)NULL + offset);
+                         (const void *)(uintptr_t)offset);
 }
 
 static void describe_vertices(const gl_api *f) {

@@ -202,7 +202,7 @@ static bool draw_sheets(raster_stock *r, error *err) {
     ok = use_material(r, of, RASTER_RADIANCE, false, err);
     if (ok)
       f->DrawElements(GL_TRIANGLES, (GLsizei)(3 * (end - i)), GL_UNSIGNED_INT,
-                      (const char *)NULL + 3 * i * sizeof(uint32_t));
+                      (const void *)(uintptr_t)(3 * i * sizeof(uint32_t)));
   }
   f->Disable(GL_BLEND);
   f->DepthMask(GL_TRUE);
