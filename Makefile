@@ -39,16 +39,17 @@ CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah bvh_part bvh_build rays rays_m
 CHAPTER_5 := $(CHAPTER_4) gl_api gl gl_make glsl raster_settings raster_mesh \
              raster_maps raster_program raster_shadow raster_view raster_pass raster
 CHAPTER_6 := $(CHAPTER_5) microfacet dfg bsdf_rough raster_rough
-CHAPTER_7 := $(CHAPTER_6) ibl raster_env
+CHAPTER_7 := $(CHAPTER_6) ibl_level ibl_lobe ibl_wave ibl_source ibl_methods \
+             ibl_cache ibl raster_env
 CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
 CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_naive film render
 CHAPTER_14 := $(CHAPTER_9) post view_state view_script view_paths view_window
 LIBRARY   := $(CHAPTER_14)
-CHAPTERS  := 1 2 3 4 5 8 9 17
+CHAPTERS  := 1 2 3 4 5 6 8 9 14 17
 # The command line, the only floor that prints and exits.
 COMMAND   := json tonemap progress option_table option cmd_shared cmd_signals \
              cmd_output cmd_shot cmd_raster cmd_render cmd_view_say cmd_view cmd_info_scene \
-             cmd_info cmd_compare cmd_bench cmd_bench_raster \
+             cmd_info cmd_compare cmd_bench cmd_bench_raster cmd_ibl cmd_bench_ibl \
              cmd_help main
 MODULES   := $(LIBRARY) $(COMMAND)
 CHAPTER_17 := $(filter-out main,$(MODULES))

@@ -63,8 +63,23 @@ static void ready_rough(raster_job *job, const shot *s) {
   arena_free(&scratch);
 }
 
+// Light from an environment that is not the same all around.
+static void ready_env(raster_job *job, const shot *s, arena *mem) {
+  const env *e = &s->scene.env;
+  if (e->kind != ENV_SKY && e->kind != ENV_MAP) return;
+  if (job->settings.shading != RASTER_RADIANCE) return;
+  pbr_model model = job->settings.model == RASTER_REPORT ? PBR_REPORT : PBR_GGX;
+  ibl light;
+  ibl_need need = raster_env_need(&s->scene, model, job->any_roughness, s->mem);
+  ibl_make(&light, e, &need, s->mem, s->threads);
+  job->env_seconds = light.seconds;
+  job->env = raster_env_new(job->g, &light, mem);
+  job->settings.ambient = raster_env_piece(&job->env);
+}
+
 bool raster_job_upload(raster_job *job, const shot *s, arena *mem, error *err) {
   ready_rough(job, s);
+  ready_env(job, s, mem);
   if (!raster_new(&job->r, job->g, &s->scene, &job->settings, mem, err))
     return false;
   job->samples = raster_last_frame(job->r).samples;
@@ -114,8 +129,10 @@ void raster_job_json(json *j, const raster_job *job) {
 void raster_job_drop(raster_job *job) {
   if (job->r != NULL) raster_free(job->r);
   if (job->rough.texture != 0) raster_rough_free(job->g, &job->rough);
+  if (job->env.texture != 0) raster_env_free(job->g, &job->env);
   job->r = NULL;
   job->rough = (raster_rough){0};
+  job->env = (raster_env){0};
 }
 
 void raster_job_close(raster_job *job) {

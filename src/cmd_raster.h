@@ -6,6 +6,7 @@
 #include "cmd_shot.h"
 #include "dfg.h"
 #include "raster.h"
+#include "raster_env.h"
 #include "raster_rough.h"
 #include "render.h"
 
@@ -19,6 +20,9 @@ typedef struct raster_job {
   raster_times times;
   double gl_seconds;     // to open the context
   double table_seconds;  // to make the table
+  raster_env env;        // light from the environment, in the context
+  double env_seconds;    // to prepare it
+  bool any_roughness;    // materials may change after the upload
 } raster_job;
 
 // Open the context that --gl asks for.  On failure (exit status 5) err names

@@ -3,6 +3,7 @@
 #ifndef CMD_SHARED_H
 #define CMD_SHARED_H
 
+#include "env.h"
 #include "option.h"
 #include "report.h"
 
@@ -45,6 +46,9 @@ char *cmd_beside(arena *mem, const char *path, const char *suffix);
 // Sort n numbers and return the middle one.
 double cmd_median(double *values, size_t n);
 
+// The environment that text names: a picture, R,G,B, sky or none.
+bool cmd_env_of(env *out, const char *text, arena *mem, report *r, error *err);
+
 // The commands, each returning an exit code.
 int cmd_render(const options *o);
 int cmd_view(const options *o);
@@ -53,6 +57,8 @@ int cmd_compare(const options *o);
 int cmd_bench_load(const options *o);
 int cmd_bench_rays(const options *o);
 int cmd_bench_raster(const options *o);
+int cmd_ibl(const options *o);
+int cmd_bench_ibl(const options *o);
 int cmd_help(const options *o);
 
 // What `facet help` prints, to out.

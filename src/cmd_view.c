@@ -53,6 +53,7 @@ static bool open_raster(view_job *j, error *err) {
   if (j->window != NULL) r->g = view_window_gl(j->window);
   if (r->g == NULL && !raster_job_open(r, j->o, mem, err)) return false;
   r->settings = raster_job_settings(&j->shot);
+  r->any_roughness = true;
   if (!raster_job_upload(r, &j->shot, mem, err)) return false;
   size_t n;
   const material *first = raster_materials(r->r, &n);

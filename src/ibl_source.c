@@ -68,11 +68,10 @@ static void read_row(void *context, size_t item, int worker) {
   }
 }
 
-// The solid angle of a texel in row y.
-static double solid_angle(const image *map, int y) {
+float ibl_source_solid_angle(const image *map, int y) {
   double theta = SOURCE_PI * (y + 0.5) / map->height;
-  return 4 * SOURCE_PI / map->width * sin(theta) *
-         sin(SOURCE_PI / (2 * map->height));
+  return (float)(4 * SOURCE_PI / map->width * sin(theta) *
+                 sin(SOURCE_PI / (2 * map->height)));
 }
 
 static double brightness(vec3 v) {
@@ -87,7 +86,7 @@ static double all_light(const image *map) {
     for (int x = 0; x < map->width; x++)
       row +=
           brightness(map->pixels[(size_t)y * (size_t)map->width + (size_t)x]);
-    sum += row * solid_angle(map, y);
+    sum += row * (double)ibl_source_solid_angle(map, y);
   }
   return sum;
 }
@@ -97,7 +96,7 @@ static void add_sun(ibl_source *s, int x, int y) {
   vec3 *texel = s->map.pixels + (size_t)y * (size_t)s->map.width + (size_t)x;
   vec2 uv = {((float)x + 0.5f) / (float)s->map.width,
              ((float)y + 0.5f) / (float)s->map.height};
-  float weight = (float)solid_angle(&s->map, y);
+  float weight = ibl_source_solid_angle(&s->map, y);
   s->suns[s->sun_count++] =
       (ibl_sun){env_direction(uv), vec3_scale(*texel, weight)};
   *texel = vec3_all(0);
@@ -112,7 +111,8 @@ static void take_suns(ibl_source *s, arena *mem) {
   for (int y = 0; y < s->map.height; y++)
     for (int x = 0; x < s->map.width; x++) {
       vec3 v = s->map.pixels[(size_t)y * (size_t)s->map.width + (size_t)x];
-      if (brightness(v) * solid_angle(&s->map, y) > least) add_sun(s, x, y);
+      if (brightness(v) * (double)ibl_source_solid_angle(&s->map, y) > least)
+        add_sun(s, x, y);
     }
 }
 

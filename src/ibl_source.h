@@ -27,4 +27,7 @@ typedef struct ibl_source {
 // angle, a smaller one or the built-in sky is read at 512 x 256 places.
 void ibl_source_make(ibl_source *out, const env *e, arena *mem, pool *threads);
 
+// The solid angle of a texel in row y.
+float ibl_source_solid_angle(const image *map, int y);
+
 #endif

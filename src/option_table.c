@@ -55,16 +55,31 @@ const command command_table[] = {
      "another, until the last is finished.  Then the cost of each pass of a "
      "frame, the median of --repeat: shadow maps, surfaces, sky, and what it "
      "takes to read the picture back."},
+    {"ibl", CMD_IBL, "ENV", 1, 1, "prepare light from an environment",
+     "ENV is an equirectangular picture, R,G,B, or sky.  With -o, writes "
+     "irradiance.pfm, radiance-R.pfm for each roughness R, dfg.pfm (what a "
+     "rough surface reflects) and ibl.json, which says how to read them.  "
+     "With --eval, answers each line 'irradiance X Y Z', 'radiance X Y Z "
+     "ROUGHNESS' or 'dfg NOV ROUGHNESS' of a file by a line of numbers, as a "
+     "render would see them.  What was prepared is kept in "
+     "XDG_CACHE_HOME/facet, or ~/.cache/facet."},
+    {"bench ibl", CMD_BENCH_IBL, "ENV", 1, 1,
+     "compare ways to sum the light of an environment",
+     "For irradiance and for radiance at some roughness values: microseconds "
+     "a value, and the largest difference to the sum over all texels in units "
+     "of the largest value; then the seconds to prepare everything."},
     {"help", CMD_HELP, "[COMMAND]", 0, 2, "explain facet or a command", NULL},
     {0},
 };
 
 const option option_table[OPTION_COUNT] = {
     [OPT_OUTPUT] =
-        {"output", 'o', CMD_RENDER, OPTION_TEXT, "FILE",
-         .help = "the picture to write, by suffix .png, .pfm or .hdr; - is "
-                 "standard output and needs --format "
-                 "(default: SCENE.png in the current folder)"},
+        {"output", 'o', CMD_RENDER | CMD_IBL, OPTION_TEXT, "FILE",
+         .help =
+             "the picture to write, by suffix .png, .pfm or .hdr; - is "
+             "standard output and needs --format "
+             "(default: SCENE.png in the current folder).  Of ibl: a folder, "
+             "made when it is not there"},
     [OPT_FORMAT] = {"format", 0, CMD_RENDER, OPTION_WORD, "png|pfm|hdr",
                     .help = "file format, whatever the suffix"},
     [OPT_DEPTH] = {"depth", 0, CMD_RENDER, OPTION_WORD, "8|16", "8",
@@ -100,7 +115,8 @@ const option option_table[OPTION_COUNT] = {
     [OPT_SHADING] = {"shading", 0, DRAWS, OPTION_WORD,
                      "auto|blinn-phong|pbr|normal|depth|albedo", "auto",
                      .help = "auto: each material by its own model"},
-    [OPT_PBR_MODEL] = {"pbr-model", 0, DRAWS, OPTION_WORD, "ggx|report", "ggx",
+    [OPT_PBR_MODEL] = {"pbr-model", 0, DRAWS | CMD_IBL | CMD_BENCH_IBL,
+                       OPTION_WORD, "ggx|report", "ggx",
                        .help = "formulas of metallic-roughness: those that "
                                "keep all light, or the course report's"},
     [OPT_CAMERA] = {"camera", 0, DRAWS, OPTION_TEXT, "NAME",
@@ -208,8 +224,11 @@ const option option_table[OPTION_COUNT] = {
                   .help = "trace the rays of a file instead"},
     [OPT_HITS] = {"hits", 0, CMD_BENCH_RAYS, OPTION_TEXT, "FILE",
                   .help = "write what they hit"},
+    [OPT_EVAL] = {"eval", 0, CMD_IBL, OPTION_TEXT, "FILE",
+                  .help = "answer the lines of this file, - is standard input"},
     [OPT_REPEAT] = {"repeat", 0,
-                    CMD_BENCH_LOAD | CMD_BENCH_RAYS | CMD_BENCH_RASTER,
+                    CMD_BENCH_LOAD | CMD_BENCH_RAYS | CMD_BENCH_RASTER |
+                        CMD_BENCH_IBL,
                     OPTION_WHOLE, "K", "5", 1, 1000,
                     .help = "runs; the median counts"},
     [OPT_FRAMES] = {"frames", 0, CMD_BENCH_RASTER, OPTION_WHOLE, "N", "1000", 1,
@@ -226,9 +245,10 @@ const option option_table[OPTION_COUNT] = {
     [OPT_STRICT] =
         {"strict", 0, CMD_RENDER | CMD_VIEW, OPTION_SWITCH,
          .help = "a warning is an error: exit status 1, nothing written"},
-    [OPT_JSON] = {"json", 0, CMD_ALL & ~(CMD_HELP | CMD_VIEW), OPTION_SWITCH,
+    [OPT_JSON] = {"json", 0, CMD_ALL & ~(CMD_HELP | CMD_VIEW | CMD_IBL),
+                  OPTION_SWITCH,
                   .help = "print one JSON object on standard output"},
-    [OPT_QUIET] = {"quiet", 'q', DRAWS | CMD_COMPARE, OPTION_SWITCH,
+    [OPT_QUIET] = {"quiet", 'q', CMD_IBL | DRAWS | CMD_COMPARE, OPTION_SWITCH,
                    .help = "print errors only"},
     [OPT_VERBOSE] = {"verbose", 'v', DRAWS | CMD_INFO, OPTION_SWITCH,
                      .help = "print notes, too"},
@@ -239,7 +259,7 @@ const option option_table[OPTION_COUNT] = {
 };
 
 const char *const later_words[] = {
-    "ibl",   "merge",      "bench error", "bench ibl", "wide",  "mis",
-    "sobol", "checkpoint", "every",       "resume",    "shard", "explain",
-    ".exr",  ".part",      "exr",         "part",      NULL,
+    "merge",      "bench error", "wide",   "mis",   "sobol",
+    "checkpoint", "every",       "resume", "shard", "explain",
+    ".exr",       ".part",       "exr",    "part",  NULL,
 };

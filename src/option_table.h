@@ -15,7 +15,9 @@ enum {
   CMD_BENCH_RASTER = 32,
   CMD_HELP = 64,
   CMD_VIEW = 128,
-  CMD_ALL = 255
+  CMD_IBL = 256,
+  CMD_BENCH_IBL = 512,
+  CMD_ALL = 1023
 };
 
 // A command: its one or two words, and what it wants after the options.
@@ -103,6 +105,7 @@ typedef enum option_id {
   OPT_KIND,
   OPT_RAYS,
   OPT_HITS,
+  OPT_EVAL,
   OPT_REPEAT,
   OPT_FRAMES,
   OPT_CSV,
