@@ -69,11 +69,11 @@ static void ready_env(raster_job *job, const shot *s, arena *mem) {
   if (e->kind != ENV_SKY && e->kind != ENV_MAP) return;
   if (job->settings.shading != RASTER_RADIANCE) return;
   pbr_model model = job->settings.model == RASTER_REPORT ? PBR_REPORT : PBR_GGX;
-  ibl light;
+  ibl made;
   ibl_need need = raster_env_need(&s->scene, model, job->any_roughness, s->mem);
-  ibl_make(&light, e, &need, s->mem, s->threads);
-  job->env_seconds = light.seconds;
-  job->env = raster_env_new(job->g, &light, mem);
+  ibl_make(&made, e, &need, s->mem, s->threads);
+  job->env_seconds = made.seconds;
+  job->env = raster_env_new(job->g, &made, mem);
   job->settings.ambient = raster_env_piece(&job->env);
 }
 
