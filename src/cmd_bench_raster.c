@@ -105,11 +105,13 @@ static double ms_per_frame(const bench_raster *b, const bench_line *l) {
   return 1000 * l->seconds / (double)b->frames;
 }
 
-// The passes by name, and their places in pass_times.
-static const struct {
+// A pass by name, and its place in pass_times.
+typedef struct pass_name {
   const char *name, *key;
   size_t at;
-} pass_names[] = {
+} pass_name;
+
+static const pass_name pass_names[] = {
     {"shadows", "shadow_ms", offsetof(pass_times, shadow)},
     {"surfaces", "surface_ms", offsetof(pass_times, surface)},
     {"sky", "sky_ms", offsetof(pass_times, sky)},
