@@ -117,6 +117,7 @@ static vec3 ball_radiance(const look *k, vec3 n) {
 typedef struct frame {
   int side;
   float x0, y0, x1, y1;
+  float gain;
 } frame;
 
 static image ball_picture(output *o, const look *k, frame f) {
@@ -131,7 +132,7 @@ static image ball_picture(output *o, const look *k, frame f) {
       float y = f.y1 - (f.y1 - f.y0) * v / (float)f.side, r2 = x * x + y * y;
       vec3 c = vec3_all(0.03f);
       if (r2 < 1) c = ball_radiance(k, (vec3){x, y, sqrtf(1 - r2)});
-      sum = vec3_add(sum, vec3_min(c, vec3_all(1)));
+      sum = vec3_add(sum, vec3_min(vec3_scale(c, f.gain), vec3_all(1)));
     }
     im.pixels[i] = vec3_scale(sum, 1.0f / (FINE * FINE));
   }
@@ -139,7 +140,7 @@ static image ball_picture(output *o, const look *k, frame f) {
 }
 
 static const vec3 COPPER = {0.95f, 0.55f, 0.35f};
-static const frame WHOLE = {64, -1.05f, -1.05f, 1.05f, 1.05f};
+static const frame WHOLE = {64, -1.05f, -1.05f, 1.05f, 1.05f, 1};
 
 // Roughness to the right, metallic downwards.
 static void draw_grid(output *o) {
@@ -192,6 +193,8 @@ static void plot(image *im, curve *y, float parameter, vec3 color) {
     float t = (float)i / (float)(2 * im->width);
     vec2 at = {t * w, (1 - y(0.2499f * t, parameter)) * w};
     if (i > 0) draw_line(im, last, at, color);
+    last.y++;
+    if (i > 0) draw_line(im, last, (vec2){at.x, at.y + 1}, color);
     last = at;
   }
 }
@@ -314,13 +317,15 @@ static void draw_furnace(output *o) {
          (double)furnace_albedo(&o->of[PBR_REPORT], 0, 0.01f, 0.03f));
 }
 
-// The upper lamp in a smooth dark ball, close by.
+// The upper lamp in a smooth dark ball, close by and much darker.
 static void draw_digits(output *o) {
   const mistake wrong[3] = {NO_MISTAKE, USUAL_D, PLUS_D};
-  vec3 h = vec3_unit(
-      vec3_add(vec3_unit(vec3_sub(LAMPS[0].at, (vec3){-0.42f, 0.48f, 0.77f})),
-               (vec3){0, 0, 1}));
-  frame f = {150, h.x - 0.02f, h.y - 0.02f, h.x + 0.02f, h.y + 0.02f};
+  vec3 n = {0, 0, 1};
+  for (int i = 0; i < 30; i++) {
+    vec3 wi = vec3_unit(vec3_sub(LAMPS[0].at, n));
+    n = vec3_unit((vec3){wi.x, wi.y, wi.z + 1});
+  }
+  frame f = {150, n.x - 1e-3f, n.y - 1e-3f, n.x + 1e-3f, n.y + 1e-3f, 4e-5f};
   image parts[3];
   for (int i = 0; i < 3; i++) {
     look k = {&o->of[PBR_GGX], vec3_all(0.05f), 0, 0.02f, wrong[i]};
@@ -371,7 +376,7 @@ static vec3 any_normal(float alpha, float u1, float u2) {
 // the hemisphere from above: by all facets, and by those that are seen.  The
 // size of a dot is the weight; red: below the horizon, where its way leads out.
 static void draw_normals(output *o) {
-  enum { SIDE = 230, DOTS = 1500, MANY = 1 << 20 };
+  enum { SIDE = 230, DOTS = 700, MANY = 1 << 20 };
   const vec3 wo = {-0.98480775f, 0, 0.17364818f};
   rough_terms s = {.alpha = 0.49f};
   image parts[2];
@@ -399,7 +404,7 @@ static void draw_normals(output *o) {
       float scale = wi.z > 0 ? 1 : 1.02f / sqrtf(wi.x * wi.x + wi.y * wi.y);
       float x = SIDE * (0.5f + 0.46f * scale * wi.x);
       float y = SIDE * (0.5f - 0.46f * scale * wi.y);
-      float size = w > 2 ? 3 : w > 1.001f ? 1.5f : 0;
+      float size = fminf(1.2f * sqrtf(fmaxf(w, 0.7f)), 6);
       for (float d = -size; d <= size; d++)
         draw_line(&parts[seen], (vec2){x - size, y + d},
                   (vec2){x + size, y + d},
