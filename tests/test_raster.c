@@ -310,6 +310,54 @@ static void furnace(void **state) {
   arena_free(&mem);
 }
 
+// The direction of d after the surface of unit normal n on d's side, eta the
+// index on this side over that on the other.
+static vec3 refracted(vec3 d, vec3 n, float eta) {
+  float c = -vec3_dot(d, n);
+  float t = sqrtf(1 - eta * eta * (1 - c * c));
+  return vec3_add(vec3_scale(d, eta), vec3_scale(n, eta * c - t));
+}
+
+// A round ball of glass shows the sky where geometry says: in at one end of a
+// chord of the sphere and out at the other.
+static void glass_balls_are_round(void **state) {
+  (void)state;
+  arena mem = {0};
+  gl *g = gl_or_skip(GL_BACKEND_AUTO, &mem);
+  world *w = world_new();
+  w->materials[0] = world_material(MATERIAL_GLASS, BLACK, BLACK);
+  world_ball(w, BLACK, 1, 5, true, 0);
+  w->scene.env = (env){.kind = ENV_SKY, .scale = 0.15f};
+  world_ready(w, 0);
+  camera_view v = world_view((vec3){1, 2, 8}, BLACK, 16, WIDTH, HEIGHT);
+  raster_settings set = plain_settings();
+  set.sky = true;
+  image im = drawn(w, g, &v, &set, &mem);
+  float worst = 0;
+  int seen = 0;
+  for (int i = 0; i < WIDTH * HEIGHT; i++) {
+    ray r =
+        camera_ray(&v, (float)(i % WIDTH) + 0.5f, (float)(i / WIDTH) + 0.5f);
+    float b = -vec3_dot(r.o, r.d), c = vec3_dot(r.o, r.o) - 1;
+    if (!(b * b - c > 0.1f)) continue;
+    vec3 n = vec3_mad(r.o, b - sqrtf(b * b - c), r.d);
+    vec3 inside = refracted(r.d, n, 1 / 1.5f);
+    vec3 far = vec3_mad(n, -2 * vec3_dot(n, inside), inside);
+    vec3 out = refracted(inside, vec3_neg(far), 1.5f);
+    vec3 back = vec3_mad(r.d, -2 * vec3_dot(n, r.d), n);
+    float cos_t, share = fresnel_dielectric(-vec3_dot(n, r.d), 1.5f, &cos_t);
+    vec3 want = vec3_lerp(env_radiance(&w->scene.env, out),
+                          env_radiance(&w->scene.env, back), share);
+    worst = fmaxf(worst, far_apart(im.pixels[i], want));
+    seen++;
+  }
+  print_message("# worst %.3f of 255\n", 255 * (double)worst);
+  assert_true(seen > 5000 && worst < 2.0f / 255);
+  world_free(w);
+  gl_close(g);
+  arena_free(&mem);
+}
+
 // One wall that fills the view from -1..1 at z = 0, by its front or its back,
 // and things before it.
 static world *wall(bool back) {
@@ -535,6 +583,7 @@ int main(void) {
       cmocka_unit_test(crop_is_a_window),
       cmocka_unit_test(sky_is_the_same),
       cmocka_unit_test(furnace),
+      cmocka_unit_test(glass_balls_are_round),
       cmocka_unit_test(sheets_blend),
       cmocka_unit_test(textures_are_the_same),
       cmocka_unit_test(samples_are_a_mean),
