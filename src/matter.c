@@ -67,14 +67,14 @@ static bsdf glass_of(float ni, vec3 tint) {
   return (bsdf){.kind = BSDF_GLASS, .kd = tint, .eta = eta};
 }
 
-// The first of two layers with probability p, else the second; *u is stretched
-// to be uniform again, and *weight grows by the chosen layer's share of the
-// light over its probability.
+// Two layers: what each does with the light, and the probability of the first.
 typedef struct layers {
   vec3 first, second;
   float p;
 } layers;
 
+// Choose one.  *u is stretched to be uniform again, and *weight grows by the
+// chosen layer's share over its probability.
 static bool take_first(const layers *l, float *u, vec3 *weight) {
   bool first = *u < l->p;
   float p = first ? l->p : 1 - l->p;
