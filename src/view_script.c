@@ -5,8 +5,9 @@
 #include <math.h>
 
 // The words that start a line, in the order of view_event_kind.
-static const char *const STATEMENTS[] = {"key", "mouse", "wait",
-                                         "spp", "frame", NULL};
+static const char *const STATEMENTS[] = {
+    "key", "mouse", "wait", "spp", "frame", NULL,
+};
 
 // The longest wait and the most samples: beyond them is a typing error.
 #define MAX_WAIT 3600.0f

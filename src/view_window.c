@@ -11,7 +11,10 @@
 #include <string.h>
 
 static const gl_library GLFW_LIBRARY = {
-    "GLFW", {"libglfw.so.3", "libglfw.so", NULL, NULL}, "libglfw3"};
+    "GLFW",
+    {"libglfw.so.3", "libglfw.so", NULL, NULL},
+    "libglfw3",
+};
 
 // X(result, name without glfw, parameters), for each function that is called.
 #define GLFW_FUNCTIONS(X) \
