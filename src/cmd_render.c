@@ -196,6 +196,7 @@ static void json_seconds(json *j, const render_job *job) {
   } else {
     json_number(j, "gl", job->raster.gl_seconds);
     json_number(j, "table", job->raster.table_seconds);
+    json_number(j, "ibl", job->raster.env_seconds);
     json_number(j, "upload", t->upload);
     json_number(j, "compile", t->compile);
     json_number(j, "shadow", t->shadow);

@@ -21,11 +21,13 @@ else skip "the manual page is well formed" "no man"; fi
 
 # Every option of every command, with every word that it offers.  The file is
 # not there, so exit 3 says that the command line itself was fine.
-for command in render info compare "bench load" "bench rays" "bench raster"; do
+for command in render view info compare ibl "bench load" "bench rays" "bench raster" "bench ibl"; do
   # shellcheck disable=SC2086
   "$facet" help $command >"$T/help" || fail "help $command"
   wrong= count=0 operands=missing.obj
   [ "$command" = compare ] && operands="missing.png missing.png"
+  [ "$command" = ibl ] && operands="missing.hdr -o ibl"
+  [ "$command" = "bench ibl" ] && operands=missing.hdr
   sed -n 's/^  \(-., \)\?--\([a-z-]*\) \?\([^ ]*\).*/\2 \3/p' "$T/help" >"$T/flags"
   while read -r flag argument; do
     [ "$flag" = help ] && continue
@@ -94,7 +96,7 @@ nearest "render a.obj --shading albdo" "albedo"
 nearest "compare --metrics mae a b" "--metric"
 nearest "bench lod a.obj" "bench load"
 nearest "a.obj" "facet render a.obj"
-for later in ibl merge "bench error" "bench ibl" "render a.obj --resume" \
+for later in merge "bench error" "render a.obj --resume" \
   "render a.obj --checkpoint x" "render a.obj --every 3" "render a.obj --shard 0/2" \
   "render a.obj --explain" \
   "render a.obj --bvh wide" "render a.obj --integrator mis" \
