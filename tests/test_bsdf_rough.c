@@ -216,9 +216,92 @@ static void samples_follow_pdf(void **state) {
   }
 }
 
+// A random surface of any roughness and kind.
+static bsdf_rough any_surface(const tables *t, rng *r) {
+  vec3 c = {rng_next(r), rng_next(r), rng_next(r)};
+  float roughness = rng_next(r), metallic = rng_next(r);
+  roughness = 1e-3f + roughness * roughness;
+  const dfg *table = &t->of[rng_next(r) < 0.5f ? PBR_GGX : PBR_REPORT];
+  if (metallic < 0.3f) metallic = 0;
+  return bsdf_rough_of(table, c, metallic > 0.7f ? 1 : metallic,
+                       fminf(roughness, 1));
+}
+
+// A weight is f wi.z / pdf for every roughness at which the floats of wi still
+// know their half vector, and finite for all.
+static void weight_is_the_quotient(void **state) {
+  rng r = rng_of(3, 0, 0);
+  for (long i = 0; i < shortened(200000); i++) {
+    bsdf_rough b = any_surface(*state, &r);
+    vec3 wo = at_angle(1 - rng_next(&r), rng_next(&r)), wi, weight;
+    float u[3] = {rng_next(&r), rng_next(&r), rng_next(&r)};
+    if (!bsdf_rough_sample(&b, wo, u, &wi, &weight)) continue;
+    assert_true(vec3_finite(weight) && wi.z > 0);
+    assert_true(fabsf(vec3_length(wi) - 1) < 1e-6f);
+    vec3 f = bsdf_rough_eval(&b, wo, wi);
+    float pdf = bsdf_rough_pdf(&b, wo, wi);
+    assert_true(isfinite(pdf) && pdf > 0);
+    vec3 want = vec3_scale(f, wi.z / pdf);
+    assert_true(vec3_length(vec3_sub(weight, want)) <
+                1e-5f * vec3_length(want));
+  }
+}
+
+// The coat alone never weighs more than F, from the least roughness on and at
+// any angle.
+static void coat_weighs_at_most_one(void **state) {
+  const tables *t = *state;
+  rng r = rng_of(4, 0, 0);
+  for (long i = 0; i < shortened(200000); i++) {
+    float x = rng_next(&r), z = rng_next(&r);
+    bsdf_rough b =
+        bsdf_rough_of(&t->of[PBR_GGX], WHITE, 1, fmaxf(x * x, 1e-3f));
+    vec3 wo = at_angle(z * z * z, rng_next(&r)), wi, weight;
+    float u[3] = {rng_next(&r), rng_next(&r), rng_next(&r)};
+    if (!bsdf_rough_sample(&b, wo, u, &wi, &weight)) continue;
+    assert_true(weight.x <= 1 + 1e-6f && weight.x > 0);
+  }
+}
+
+// A dielectric by PBR_GGX returns all of white light, by quadrature, within
+// the error of the table.
+static void porcelain_loses_nothing(void **state) {
+  const tables *t = *state;
+  for (int i = 0; i < CASES; i++) {
+    bsdf_rough b = bsdf_rough_of(&t->of[PBR_GGX], WHITE, 0, CASE[i].roughness);
+    integrand light = {&b, at_angle(CASE[i].cos_o, 0), true};
+    double albedo = hemisphere_integral(&light);
+    print_message("# %.5f\n", albedo);
+    assert_true(fabs(albedo - 1) < 1e-3);
+  }
+}
+
+// Nothing happens below the surface, and below ALPHA_MIN only the ground is
+// left.
+static void ends(void **state) {
+  const tables *t = *state;
+  bsdf_rough b = bsdf_rough_of(&t->of[PBR_GGX], COPPER, 0.5f, 0.3f);
+  vec3 up = at_angle(0.4f, 0.1f), down = at_angle(-0.4f, 0.7f), wi, weight;
+  const float u[3] = {0.9f, 0.3f, 0.3f};
+  assert_true(vec3_peak(bsdf_rough_eval(&b, up, down)) == 0);
+  assert_true(vec3_peak(bsdf_rough_eval(&b, down, up)) == 0);
+  assert_true(bsdf_rough_pdf(&b, up, down) == 0);
+  assert_false(bsdf_rough_sample(&b, down, u, &wi, &weight));
+  b = bsdf_rough_of(&t->of[PBR_GGX], COPPER, 0.5f, 0);
+  vec3 mirrored = {-up.x, -up.y, up.z};
+  assert_true(bsdf_rough_eval(&b, up, mirrored).x < 0.5f * COPPER.x);
+  assert_float_equal(bsdf_rough_pdf(&b, up, mirrored), up.z / PI, 1e-6);
+  b = bsdf_rough_of(&t->of[PBR_GGX], COPPER, 1, 0);
+  assert_false(bsdf_rough_sample(&b, up, u, &wi, &weight));
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(samples_follow_pdf),
+      cmocka_unit_test(weight_is_the_quotient),
+      cmocka_unit_test(coat_weighs_at_most_one),
+      cmocka_unit_test(porcelain_loses_nothing),
+      cmocka_unit_test(ends),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }
