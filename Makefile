@@ -45,7 +45,7 @@ CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
 CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_naive film render
 CHAPTER_14 := $(CHAPTER_9) post view_state view_script view_paths view_window
 LIBRARY   := $(CHAPTER_14)
-CHAPTERS  := 1 2 3 4 5 6 8 9 14 17
+CHAPTERS  := 1 2 3 4 5 6 7 8 9 14 17
 # The command line, the only floor that prints and exits.
 COMMAND   := json tonemap progress option_table option cmd_shared cmd_signals \
              cmd_output cmd_shot cmd_raster cmd_render cmd_view_say cmd_view cmd_info_scene \

@@ -63,8 +63,10 @@ static float wave_channel(vec3 v, int c) {
   return c == 0 ? v.x : c == 1 ? v.y : v.z;
 }
 
-// Six doubles, as pairs that one instruction adds.
-typedef double wave_pair __attribute__((vector_size(16)));
+// Two doubles that one instruction adds or multiplies, with gcc and clang.
+#define WAVE_VECTOR __attribute__((vector_size(16)))
+
+typedef WAVE_VECTOR double wave_pair;
 
 // One direction of the transform: rows of the half sphere at cos theta > 0,
 // from the pole to the equator, and for each row and m the sum (even) and the

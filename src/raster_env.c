@@ -46,8 +46,8 @@ static const ibl_level *level_by_place(const ibl *b, int i) {
 
 // The lists that ibl.glsl wants.
 static const char *env_defines(const ibl *b, arena *mem) {
-  char *roughness = arena_format(mem, "float[](");
-  char *start = arena_format(mem, "int[]("), *width = start;
+  char *roughness = arena_format(mem, "%s(", "float[]");
+  char *start = arena_format(mem, "%s(", "int[]"), *width = start;
   size_t at = 0;
   for (int i = 0; i <= b->level_count; i++) {
     const ibl_level *l = level_by_place(b, i);
