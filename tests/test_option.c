@@ -162,11 +162,37 @@ static void test_tonemap(void **state) {
   arena_free(&mem);
 }
 
+// A list of sizes gives each of them back, and one wrong size among them is
+// refused wherever it stands.
+static void test_sizes(void **state) {
+  (void)state;
+  options o;
+  error err;
+  int w, h;
+  assert_true(parse(&o, "bench raster -r 1x2,30x40,65535x1 x.obj", &err));
+  const option_value *v = &o.value[OPT_RESOLUTIONS];
+  const int wanted[3][2] = {{1, 2}, {30, 40}, {65535, 1}};
+  for (unsigned i = 0; i < 3; i++) {
+    assert_true(option_size(v, i, &w, &h));
+    assert_int_equal(w, wanted[i][0]);
+    assert_int_equal(h, wanted[i][1]);
+  }
+  assert_false(option_size(v, 3, &w, &h));
+  const char *wrong[] = {"1x2,",  ",1x2",      "1x2,,3x4", "0x2,1x2",
+                         "1x2,3", "1x2,3x4x5", "1x2;3x4",  "1x65536"};
+  char line[128];
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+    snprintf(line, sizeof line, "bench raster -r %s x.obj", wrong[i]);
+    assert_false(parse(&o, line, &err));
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(test_table), cmocka_unit_test(test_fallbacks),
-      cmocka_unit_test(test_words), cmocka_unit_test(test_forms),
-      cmocka_unit_test(test_json),  cmocka_unit_test(test_tonemap),
+      cmocka_unit_test(test_table),   cmocka_unit_test(test_fallbacks),
+      cmocka_unit_test(test_words),   cmocka_unit_test(test_sizes),
+      cmocka_unit_test(test_forms),   cmocka_unit_test(test_json),
+      cmocka_unit_test(test_tonemap),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
