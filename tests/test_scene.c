@@ -380,6 +380,50 @@ static void closed_means_no_border(void **state) {
   assert_false(mesh_is_closed(&m, tag, 1));
 }
 
+// Read the first n bytes as a scene file; what is refused says where.
+static void read_bytes(const char *path, const char *bytes, size_t n) {
+  FILE *f = fopen(path, "wb");
+  assert_non_null(f);
+  fwrite(bytes, 1, n, f);
+  fclose(f);
+  arena mem = {0};
+  report r = {.mem = &mem};
+  error err = {{0}};
+  scene_file out = {.exposure = 77};
+  bool ok = scene_file_read(&out, path, &mem, &r, &err);
+  assert_true(ok || strncmp(err.text, path, strlen(path)) == 0);
+  assert_true(ok || out.exposure == 77);
+  arena_free(&mem);
+}
+
+// Every beginning of a good file, and the file with one byte changed, is read
+// or refused with its name, and nothing else happens.
+static void damaged_files_are_read_or_refused(void **state) {
+  (void)state;
+  char folder[] = "/tmp/facet-scene-XXXXXX", path[64], bytes[2000];
+  assert_non_null(mkdtemp(folder));
+  snprintf(path, sizeof path, "%s/t.scene", folder);
+  FILE *f = fopen("tests/data/scene/full.scene", "rb");
+  assert_non_null(f);
+  size_t n = fread(bytes, 1, sizeof bytes, f);
+  fclose(f);
+  assert_true(n > 500 && n < sizeof bytes);
+  for (size_t i = 0; i <= n; i++)
+    read_bytes(path, bytes, i);
+  uint32_t random = 1;
+  int turns = getenv("FACET_QUICK") == NULL ? 5000 : 500;
+  for (int i = 0; i < turns; i++) {
+    random = random * 1664525u + 1013904223u;
+    size_t at = (random >> 8) % n;
+    char old = bytes[at];
+    bytes[at] = (char)(random >> 24);
+    read_bytes(path, bytes, n);
+    bytes[at] = old;
+  }
+  remove(path);
+  rmdir(folder);
+}
+
 // An OBJ that is not there is an error that names it.
 static void missing_files_are_errors(void **state) {
   (void)state;
@@ -404,6 +448,7 @@ int main(void) {
       cmocka_unit_test(what_is_missing_is_told),
       cmocka_unit_test(uv_is_interpolated),
       cmocka_unit_test(closed_means_no_border),
+      cmocka_unit_test(damaged_files_are_read_or_refused),
       cmocka_unit_test(missing_files_are_errors),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
