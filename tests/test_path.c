@@ -340,6 +340,28 @@ static void facing_mirrors(void **state) {
   world_free(w);
 }
 
+// A slab of glass, one thick, displaces a ray by what Snell's law says and
+// gives it its direction back: a small lamp where it must arrive is seen with
+// the light that two surfaces let through.
+static void slab_displaces(void **state) {
+  (void)state;
+  world *w = world_new();
+  w->materials[0] = world_material(MATERIAL_GLASS, WHITE, WHITE);
+  w->materials[1] = world_material(MATERIAL_BLINN_PHONG, BLACK, BLACK);
+  w->materials[1].ke = WHITE;
+  world_box(w, (vec3){-9, 0, -9}, (vec3){9, 1, 9}, false, 0);
+  float sine = 0.70710678f / 1.5f;
+  float x = sine / sqrtf(1 - sine * sine) + 1;
+  world_quad(w, (vec3){x - 0.01f, -1, 0.01f}, (vec3){0.02f, 0, 0},
+             (vec3){0, 0, -0.02f}, 1);
+  world_ready(w, 0);
+  ray r = ray_from((vec3){-1, 2, 0}, vec3_unit((vec3){1, -1, 0}));
+  estimate e = world_radiance(w, r, 20000, 4);
+  float cos_t, once = 1 - fresnel_dielectric(0.70710678f, 1.5f, &cos_t);
+  assert_true(fabs(e.mean - (double)(once * once)) < 4 * e.error);
+  world_free(w);
+}
+
 // The tree and the list of all triangles give the same light, to the bit.
 static void tree_is_list(void **state) {
   (void)state;
@@ -377,6 +399,7 @@ int main(void) {
       cmocka_unit_test(direct_light),
       cmocka_unit_test(sheets),
       cmocka_unit_test(facing_mirrors),
+      cmocka_unit_test(slab_displaces),
       cmocka_unit_test(tree_is_list),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
