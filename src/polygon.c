@@ -241,25 +241,27 @@ static void queue_all(clipper *c, uint32_t any) {
   } while (i != any);
 }
 
-// Clip until three corners are left.  A clipped ear changes only its
-// neighbours, so only they come into the queue again; when the queue runs dry
-// the rule is relaxed until something gives.
+// Clip until three corners are left.  A clipped ear changes its neighbours, so
+// they come into the queue again; where an outline touches itself it may free
+// others too, so a dry queue is filled with all that are left.  Only when that
+// gave nothing is the rule relaxed.
 static void clip_all(clipper *c) {
   ear_rule rule = EAR_STRICT;
+  bool clipped = true;
   uint32_t some = 0;  // a corner that is left
-  queue_all(c, 0);
   while (c->left > 3) {
+    if (c->budget == 0) rule = EAR_LAST;
     if (c->queue_n == 0) {
-      rule = c->budget > 0 && rule != EAR_LAST ? rule + 1 : EAR_LAST;
+      if (!clipped && rule != EAR_LAST) rule++;
       queue_all(c, some);
+      clipped = false;
     }
     uint32_t i = queue_pop(c);
-    if (c->gone[i]) continue;
-    if (c->budget == 0) rule = EAR_LAST;
-    if (!is_ear(c, i, rule)) continue;
+    if (c->gone[i] || !is_ear(c, i, rule)) continue;
     some = c->next[i];
     clip(c, i);
-    if (rule != EAR_LAST || c->budget > 0) rule = EAR_STRICT;
+    clipped = true;
+    rule = EAR_STRICT;
   }
   *c->out++ = c->prev[some];
   *c->out++ = some;
