@@ -243,7 +243,10 @@ static void the_locale_has_no_say(void **state) {
   const char *set = NULL;
   for (int i = 0; i < 4 && set == NULL; i++)
     set = setlocale(LC_NUMERIC, COMMA[i]);
-  if (set == NULL) skip();
+  if (set == NULL) {
+    print_message("# SKIP no locale with a decimal comma\n");
+    return;
+  }
   static const char MIDPOINT[] = "1.00000017881393432617187500";
   float f = 0;
   const char *after = number_float(MIDPOINT, MIDPOINT + 28, &f);
