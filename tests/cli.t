@@ -19,6 +19,10 @@ if command -v man >/dev/null && command -v groff >/dev/null; then
   else fail "the manual page is well formed"; fi
 else skip "the manual page is well formed" "no man"; fi
 
+"$facet" help render >"$T/out"
+ok "help shows the default" grep -q "samples a pixel" "$T/out"
+ok "of numbers" sh -c 'tr -s " \n" " " <out | grep -q "without it (default: 64)"'
+
 # Every option of every command, with every word that it offers.  The file is
 # not there, so exit 3 says that the command line itself was fine.
 for command in render info compare "bench load" "bench rays"; do
