@@ -2,6 +2,7 @@
 
 #include "obj_merge.h"
 
+#include "pages.h"
 #include "polygon.h"
 
 #include <string.h>
@@ -21,8 +22,10 @@ void obj_places(const obj_chunk *chunks, size_t n, obj_place *places) {
   }
 }
 
-// memcpy for arrays that may be NULL when they are empty.
+// memcpy into memory that nobody has written yet, from arrays that may be NULL
+// when they are empty.
 static void copy_items(void *to, const void *from, size_t bytes) {
+  pages_expect(to, bytes);
   if (bytes > 0) memcpy(to, from, bytes);
 }
 
@@ -158,6 +161,7 @@ obj_findings obj_merge_faces(const mesh *m, const obj_chunk *c,
   for (int k = 0; k < 3; k++) {
     // Triangles go straight into the mesh.
     uint32_t *to = kinds[k].mesh != NULL ? kinds[k].mesh + out : NULL;
+    if (to != NULL) pages_expect(to, 3 * c->triangle_count * sizeof *to);
     if (to == NULL || c->faces != NULL) {
       s->resolved[k] = array_grow(s->resolved[k], &s->resolved_room[k], n,
                                   sizeof *s->resolved[k]);
