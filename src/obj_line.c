@@ -17,12 +17,14 @@ enum { QUOTE_BYTES = 40 };
 static const char *const FREE_FORM[] = {
     "vp",   "cstype", "deg",  "bmat", "step", "curv", "curv2",
     "surf", "parm",   "trim", "hole", "scrv", "sp",   "end",
-    "con",  "cdc",    "cdp",  "bzp",  "bsp",  "res",  NULL};
+    "con",  "cdc",    "cdp",  "bzp",  "bsp",  "res",  NULL,
+};
 
 // How to show things, for programs that are long gone.
 static const char *const DISPLAY[] = {
     "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "ctech",
-    "stech", "maplib",   "usemap",   "mg",  "call",       "csh",       NULL};
+    "stech", "maplib",   "usemap",   "mg",  "call",       "csh",       NULL,
+};
 
 static void tally(obj_chunk *c, obj_tally_kind kind, uint64_t line) {
   if (c->tally[kind].count++ == 0) c->tally[kind].line = line;
