@@ -117,12 +117,14 @@ static void random_decimals_agree_with_strtof(void **state) {
   static const long TURNS[] = {5000000, 4000000, 600000, 400000};
   uint64_t s = 88172645463325252u;
   int wrong = 0;
-  for (int k = 0; k < 4; k++)
+  for (int k = 0; k < 4; k++) {
+    void (*write)(char *, uint64_t *) = WRITE[k];
     for (long i = turns(TURNS[k]); i > 0 && wrong < 10; i--) {
       char text[TEXT_MAX + 8] = {0};
-      WRITE[k](text + 4, &s);
+      write(text + 4, &s);
       wrong += !agrees(text + 4);
     }
+  }
   assert_int_equal(wrong, 0);
 }
 
