@@ -259,6 +259,8 @@ static void report_flaws(obj_job *job, report *r) {
               "face(s) with a normal that does not exist");
   report_flaw(job, r, offsetof(obj_findings, polygon),
               "polygon(s) without area or crossing themselves, cut anyhow");
+  report_flaw(job, r, offsetof(obj_findings, flat),
+              "triangle(s) without area, which nothing can hit");
   if (job->m.triangle_count == 0)
     report_warn(r, "%s: no faces, nothing to draw", job->source.name);
 }

@@ -24,7 +24,7 @@ typedef struct obj_event {
   obj_event_kind kind;
   uint32_t triangle;
   size_t name, length;  // in the chunk's names
-  int64_t value;        // smoothing group; line of a library
+  int64_t value;        // smoothing group; line of usemtl, mtllib
 } obj_event;
 
 // What is counted, with the line where it was first seen.

@@ -247,7 +247,7 @@ void obj_line_parse(obj_chunk *c, span line, uint64_t number) {
   } else if (span_is(keyword, "f") || span_is(keyword, "fo")) {
     line_face(c, data, number);
   } else if (span_is(keyword, "usemtl")) {
-    add_event(c, OBJ_EVENT_MATERIAL, name, 0);
+    add_event(c, OBJ_EVENT_MATERIAL, name, (int64_t)number);
   } else if (span_is(keyword, "g")) {
     add_event(c, OBJ_EVENT_GROUP, name, 0);
   } else if (span_is(keyword, "o")) {
