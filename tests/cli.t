@@ -138,7 +138,7 @@ if [ $? = 4 ]; then pass "info on closed output"; else fail "info on closed outp
 if [ "$(cat code)" = 4 ]; then pass "a reader that leaves"; else fail "a reader that leaves"; fi
 
 # On a terminal, which script(1) plays.
-if command -v script >/dev/null; then
+if script -qec true /dev/null </dev/null >/dev/null 2>&1; then
   tty() { TERM=${term-xterm} script -qec "$*" /dev/null </dev/null >"$T/out" 2>&1; }
   escape=$(printf '\033')
   tty "$facet" render missing.obj
