@@ -12,8 +12,8 @@ import pathlib
 WIDTH, HEIGHT = 256, 128
 SUNSET = math.radians(24)  # from -Z towards +X
 
-ZENITH = (0.09, 0.16, 0.40)
-HORIZON = (0.44, 0.36, 0.36)
+ZENITH = (0.13, 0.17, 0.34)
+HORIZON = (0.56, 0.40, 0.34)
 GLOW = (0.95, 0.50, 0.22)
 EMBER = (0.55, 0.10, 0.00)  # a thin red line below the glow
 GROUND = (0.035, 0.035, 0.03)

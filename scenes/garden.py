@@ -186,7 +186,7 @@ def balls(divisions, smooth):
         (-2.45, -0.75, 0.06 + 0.85), smooth)
     add("ball_iron_mirror", icosphere(1.05, divisions), iron,
         (-0.15, 0.55, 0.06 + 1.05), smooth)
-    row = (("gold", (1.0, 0.74, 0.32), 0.9, 0.25),
+    row = (("gold", (1.0, 0.70, 0.26), 0.9, 0.3),
            ("copper", (0.93, 0.46, 0.32), 0.9, 0.6),
            ("lacquer", (0.45, 0.02, 0.02), 0.05, 0.25),
            ("porcelain", (0.05, 0.12, 0.42), 0.0, 0.1),

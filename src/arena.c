@@ -1,8 +1,5 @@
 // arena.c
 
-// For madvise, which POSIX does not have.
-#define _DEFAULT_SOURCE
-
 #include "arena.h"
 
 #include <stdalign.h>
@@ -11,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 
 // Small requests share a block of this many bytes; larger ones get their own.
 enum { BLOCK_BYTES = 1 << 16 };
@@ -29,24 +25,6 @@ static _Noreturn void out_of_memory(size_t n, size_t size) {
   exit(5);
 }
 
-// Allocations from here on are worth large pages.
-enum { LARGE_BYTES = 1 << 22 };
-
-// Ask for pages of 2 MiB: a mesh is then mapped by hundreds of page faults
-// instead of a hundred thousand, and found with fewer misses of the address
-// cache.  A wish: nothing depends on it.
-static void prefer_large_pages(void *p, size_t bytes) {
-#ifdef MADV_HUGEPAGE
-  if (bytes < LARGE_BYTES) return;
-  uintptr_t page = 4096, from = ((uintptr_t)p + page - 1) / page * page;
-  uintptr_t to = ((uintptr_t)p + bytes) / page * page;
-  madvise((void *)from, to - from, MADV_HUGEPAGE);
-#else
-  (void)p;
-  (void)bytes;
-#endif
-}
-
 void *arena_alloc(arena *a, size_t n, size_t size) {
   if (size != 0 && n > (SIZE_MAX / 2) / size) out_of_memory(n, size);
   size_t align = alignof(max_align_t);
@@ -57,7 +35,6 @@ void *arena_alloc(arena *a, size_t n, size_t size) {
     size_t room = own ? bytes : BLOCK_BYTES;
     block = calloc(1, sizeof *block + room);
     if (block == NULL) out_of_memory(n, size);
-    prefer_large_pages(block, sizeof *block + room);
     block->size = room;
     if (own && a->top != NULL) {
       // Behind the top, which still has room for small requests.
@@ -115,7 +92,6 @@ void *array_grow(void *old, size_t *room, size_t need, size_t size) {
   if (more > (SIZE_MAX / 2) / size) out_of_memory(more, size);
   void *array = realloc(old, more * size);
   if (array == NULL) out_of_memory(more, size);
-  prefer_large_pages(array, more * size);
   *room = more;
   return array;
 }

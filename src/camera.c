@@ -63,8 +63,7 @@ camera camera_framing(vec3 lo, vec3 hi, float aspect) {
   const vec3 up = {0, 1, 0}, back = vec3_unit((vec3){0.5f, 0.4f, 1});
   vec3 half = vec3_sub(vec3_scale(hi, 0.5f), vec3_scale(lo, 0.5f));
   vec3 center = vec3_add(lo, half);
-  if (!vec3_finite(half) || !vec3_finite(center) || !(half.x >= 0))
-    half = center = vec3_all(0);
+  if (!vec3_finite(half) || !vec3_finite(center)) half = center = vec3_all(0);
   vec3 side = vec3_unit(vec3_cross(up, back));
   float t = half_height(fov_deg);
   vec2 tangents = {t * aspect, t};

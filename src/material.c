@@ -15,9 +15,9 @@ const char *material_kind_name(material_kind k) {
   return names[k];
 }
 
-// Whether c separates words in a name.
+// Whether c separates words in a name; the NUL at its end does.
 static bool splits_words(char c) {
-  return c == '\0' || strchr("_.- \t0123456789", c) != NULL;
+  return strchr("_.- \t0123456789", c) != NULL;
 }
 
 // c in lower case, for ASCII letters.

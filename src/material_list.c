@@ -5,75 +5,22 @@
 #include "path_find.h"
 
 #include <fnmatch.h>
+#include <inttypes.h>
 #include <string.h>
-
-// A walk over the libraries of one mesh.
-typedef struct library_reader {
-  mtl_library lib;
-  const char *path, *folder;  // of the mesh
-  const char **read;          // paths read already
-  size_t read_count, missing;
-  arena *mem;
-  report *r;
-  error *err;
-} library_reader;
-
-// Read the library at path, once; false when it is malformed.
-static bool read_library_once(library_reader *l, const char *path) {
-  for (size_t i = 0; i < l->read_count; i++)
-    if (strcmp(l->read[i], path) == 0) return true;
-  l->read[l->read_count++] = path;
-  return mtl_read(&l->lib, path, l->mem, l->r, l->err);
-}
-
-// Read what one mtllib line names: the whole line if that is a file, since
-// names with blanks are common, else each of its words.
-static bool read_mtllib(library_reader *l, const char *line) {
-  const char *tried, *whole;
-  char *found = path_find(l->mem, l->folder, line, l->path, l->r, &tried);
-  if (found != NULL) return read_library_once(l, found);
-  whole = tried;
-  const char *missing = NULL;
-  size_t found_words = 0;
-  span rest = {line, strlen(line)}, word;
-  while ((word = text_word(&rest)).length > 0) {
-    const char *name = span_copy(l->mem, word);
-    found = path_find(l->mem, l->folder, name, l->path, l->r, &tried);
-    if (found == NULL) {
-      missing = tried;
-      continue;
-    }
-    found_words++;
-    if (!read_library_once(l, found)) return false;
-  }
-  if (found_words == 0) missing = whole;
-  if (missing == NULL) return true;
-  l->missing++;
-  report_warn(l->r, "%s: material library not found, tried %s", l->path,
-              missing);
-  return true;
-}
 
 bool material_list_written(const mtl_material **written, const mesh *m,
                            const char *path, arena *mem, report *r,
                            error *err) {
-  size_t words = 0;  // no line holds more paths than characters
-  for (size_t i = 0; i < m->library_count; i++)
-    words += strlen(m->libraries[i]) + 1;
-  library_reader l = {.path = path,
-                      .folder = path_folder(mem, path),
-                      .read = ARENA_NEW(mem, const char *, words),
-                      .mem = mem,
-                      .r = r,
-                      .err = err};
-  for (size_t i = 0; i < m->library_count; i++)
-    if (!read_mtllib(&l, m->libraries[i])) return false;
+  mtl_library lib = {0};
+  if (!mtl_read_all(&lib, m, path, mem, r, err)) return false;
   for (size_t i = 0; i < m->material_count; i++) {
-    long at = mtl_find(&l.lib, m->material_names[i]);
-    written[i] = at < 0 ? NULL : &l.lib.materials[at];
-    if (at < 0 && l.missing == 0)
-      report_warn(r, "%s: material \"%s\" is not defined, it will be grey",
-                  path, m->material_names[i]);
+    long at = mtl_find(&lib, m->material_names[i]);
+    written[i] = at < 0 ? NULL : &lib.materials[at];
+    if (at < 0 && lib.missing == 0)
+      report_warn(r,
+                  "%s:%" PRIu64 ": material \"%s\" is not defined, it will be "
+                  "grey",
+                  path, m->material_lines[i], m->material_names[i]);
   }
   return true;
 }

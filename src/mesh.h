@@ -35,6 +35,7 @@ typedef struct mesh {
   size_t run_count;
   const char **object_names, **group_names, **material_names;
   size_t object_count, group_count, material_count;  // distinct names
+  uint64_t *material_lines;                          // of the first usemtl
   const char **libraries;                            // mtllib lines as written
   uint64_t *library_lines;                           // where
   size_t library_count;

@@ -33,7 +33,9 @@ static void join_allocate(mesh *out, const mesh *sum, arena *mem) {
   out->object_names = ARENA_NEW(mem, const char *, sum->object_count);
   out->group_names = ARENA_NEW(mem, const char *, sum->group_count);
   out->material_names = ARENA_NEW(mem, const char *, sum->material_count);
+  out->material_lines = ARENA_NEW(mem, uint64_t, sum->material_count);
   out->libraries = ARENA_NEW(mem, const char *, sum->library_count);
+  out->library_lines = ARENA_NEW(mem, uint64_t, sum->library_count);
 }
 
 // Add the counts of p to sum.
@@ -107,8 +109,12 @@ static void join_append(mesh *out, const mesh *p) {
          sizeof(char *));
   append(out->material_names, out->material_count, p->material_names,
          p->material_count, sizeof(char *));
+  append(out->material_lines, out->material_count, p->material_lines,
+         p->material_count, sizeof(uint64_t));
   append(out->libraries, out->library_count, p->libraries, p->library_count,
          sizeof(char *));
+  append(out->library_lines, out->library_count, p->library_lines,
+         p->library_count, sizeof(uint64_t));
 }
 
 bool mesh_join(mesh *out, const mesh *parts, size_t n, arena *mem, error *err) {

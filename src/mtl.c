@@ -14,14 +14,17 @@ typedef enum mtl_value {
   VALUE_MAP
 } mtl_value;
 
-// Every keyword that facet knows: its spelling, its kind, its field.  The
-// first spelling of a key is the one that facet uses; letter case is free.
-static const struct {
+// A keyword: its spelling, its kind, its field.
+typedef struct mtl_key_entry {
   const char *name;
   mtl_key key;
   mtl_value value;
   size_t field;
-} MTL_KEYS[] = {
+} mtl_key_entry;
+
+// Every keyword that facet knows.  The first spelling of a key is the one that
+// facet uses; letter case is free.
+static const mtl_key_entry MTL_KEYS[] = {
     {"Ka", MTL_KA, VALUE_COLOR, offsetof(mtl_material, ka)},
     {"Kd", MTL_KD, VALUE_COLOR, offsetof(mtl_material, kd)},
     {"Ks", MTL_KS, VALUE_COLOR, offsetof(mtl_material, ks)},

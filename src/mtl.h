@@ -65,6 +65,7 @@ typedef struct mtl_library {
   mtl_material *materials;
   size_t count, room;
   name_table names;  // name number = material number
+  size_t missing;    // mtllib lines of which something was not found
 } mtl_library;
 
 // A material of the given name with every default.

@@ -13,7 +13,7 @@ typedef enum map_argument {
   ARGUMENT_WORD
 } map_argument;
 
-// Every option of the format.
+// What an option does.
 typedef enum map_option_kind {
   OPTION_SCALE,
   OPTION_OFFSET,
@@ -23,11 +23,15 @@ typedef enum map_option_kind {
   OPTION_IGNORED
 } map_option_kind;
 
-static const struct {
+// An option by name: what follows it and what it does.
+typedef struct map_option_entry {
   const char *name;
   map_argument argument;
   map_option_kind kind;
-} MAP_OPTIONS[] = {
+} map_option_entry;
+
+// Every option of the format.
+static const map_option_entry MAP_OPTIONS[] = {
     {"-s", ARGUMENT_VECTOR, OPTION_SCALE},
     {"-o", ARGUMENT_VECTOR, OPTION_OFFSET},
     {"-t", ARGUMENT_VECTOR, OPTION_IGNORED},

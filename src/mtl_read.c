@@ -124,6 +124,13 @@ static bool read_once(library_search *s, mtl_library *lib, const char *path,
   return s->done.count == before || mtl_read(lib, path, s->mem, s->r, err);
 }
 
+static void missing_library(const library_search *s, mtl_library *lib,
+                            const char *tried) {
+  report_warn(s->r, "%s: material library not found, tried %s", s->place,
+              tried);
+  lib->missing++;
+}
+
 // The file of each word of name; *found counts them.  With lib, read them and
 // warn of those that are not there.
 static bool read_words(library_search *s, mtl_library *lib, const char *name,
@@ -136,8 +143,7 @@ static bool read_words(library_search *s, mtl_library *lib, const char *name,
                            lib != NULL ? s->r : NULL, &tried);
     *found += path != NULL;
     if (lib == NULL) continue;
-    if (path == NULL)
-      report_warn(s->r, "%s: no material library at \"%s\"", s->place, tried);
+    if (path == NULL) missing_library(s, lib, tried);
     if (path != NULL && !read_once(s, lib, path, err)) return false;
   }
   return true;
@@ -152,7 +158,7 @@ static bool read_line_libraries(library_search *s, mtl_library *lib,
   int found;
   read_words(s, NULL, name, &found, err);
   if (found > 0) return read_words(s, lib, name, &found, err);
-  report_warn(s->r, "%s: no material library at \"%s\"", s->place, tried);
+  missing_library(s, lib, tried);
   return true;
 }
 

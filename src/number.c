@@ -2,13 +2,12 @@
 
 #include "number.h"
 
-#include "digits.h"
-
 #include <errno.h>
 #include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -23,7 +22,7 @@ enum { WORD_DIGITS = 19 };
 enum { SLOW_DIGITS = 120 };
 
 // Units in the last place of a double; decimal_fast says what they guard.
-enum { ROUNDING_GUARD = 8 };
+enum { ROUNDING_GUARD = 16 };
 
 // An exponent as written stops growing here: beyond, all is 0 or infinite.
 static const int64_t EXPONENT_MAX = 100000000000000000;
@@ -40,17 +39,18 @@ typedef struct decimal {
 // 10^0 .. 10^22, all exact in double precision.
 static const double POWER_OF_TEN[] = {
     1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
+};
+
+// The same of negative powers, rounded.
+static const double POWER_OF_TENTH[] = {
+    1e-0,  1e-1,  1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7,
+    1e-8,  1e-9,  1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15,
+    1e-16, 1e-17, 1e-18, 1e-19, 1e-20, 1e-21, 1e-22,
+};
 
 static bool is_digit(char c) {
   return c >= '0' && c <= '9';
-}
-
-// The end of a run of digits at p.
-static const char *skip_digits(const char *p, const char *end) {
-  while (p < end && is_digit(*p))
-    p++;
-  return p;
 }
 
 // Whether the bytes at p begin with the lower-case word, in any case.
@@ -92,22 +92,47 @@ static const char *take_exponent(const char *p, const char *end,
   return q;
 }
 
-// The digits at p into *word while they surely fit, eight at a time; *count
-// grows by their number.
-static const char *take_digits(const char *p, const char *end, uint64_t *word,
-                               int *count) {
-  uint32_t value;
-  while (end - p >= DIGITS_READ && *count <= WORD_DIGITS - 8) {
-    unsigned n = digits_take(p, &value);
-    if (n == 0) return p;
-    *word = *word * digits_power(n) + value;
-    *count += (int)n;
-    p += n;
-    if (n < 8) return p;
-  }
-  for (; p < end && is_digit(*p) && *count < WORD_DIGITS; p++, ++*count)
-    *word = *word * 10 + (uint64_t)(*p - '0');
+// Whether all of the eight bytes at p are digits, and then their value.
+//
+// The bytes become one integer with the first one lowest.  Taking '0' off each
+// leaves 0..9 for digits; adding 0x76 then sets the top bit of everything
+// else.  Three multiplications join neighbours: digits, pairs, fours.
+static inline bool eight_digits(const char *p, uint64_t *value) {
+  const unsigned char *b = (const unsigned char *)p;
+  uint64_t v = (uint64_t)b[0] | (uint64_t)b[1] << 8 | (uint64_t)b[2] << 16 |
+               (uint64_t)b[3] << 24 | (uint64_t)b[4] << 32 |
+               (uint64_t)b[5] << 40 | (uint64_t)b[6] << 48 |
+               (uint64_t)b[7] << 56;
+  v ^= 0x3030303030303030u;
+  if ((((v + 0x7676767676767676u) | v) & 0x8080808080808080u) != 0)
+    return false;
+  v = (v * 10 + (v >> 8)) & 0x00ff00ff00ff00ffu;
+  v = (v * 100 + (v >> 16)) & 0x0000ffff0000ffffu;
+  *value = (v * 10000 + (v >> 32)) & 0xffffffffu;
+  return true;
+}
+
+// Append the digits at p to *word, which wraps around when they are too many;
+// the first byte behind them is returned.
+static inline const char *take_digits(const char *p, const char *end,
+                                      uint64_t *word) {
+  uint64_t w = *word;
+  for (; p < end && is_digit(*p); p++)
+    w = w * 10 + (uint64_t)(*p - '0');
+  *word = w;
   return p;
+}
+
+// The same where many digits are likely: behind the point.  Six decimals are
+// the most common, so the seventh byte tells whether to try eight.
+static inline const char *take_fraction(const char *p, const char *end,
+                                        uint64_t *word) {
+  uint64_t eight;
+  while (end - p >= 8 && is_digit(p[6]) && eight_digits(p, &eight)) {
+    *word = *word * 100000000 + eight;
+    p += 8;
+  }
+  return take_digits(p, end, word);
 }
 
 // Take a mantissa of more than 19 digits apart: zeros in front do not count.
@@ -130,49 +155,44 @@ static void take_long(decimal *d) {
 }
 
 // Take the decimal at p apart; NULL when there is no digit.
-static const char *take_decimal(const char *p, const char *end, decimal *d) {
-  int count = 0;
+static inline const char *take_decimal(const char *p, const char *end,
+                                       decimal *d) {
   d->digits = p;
-  p = take_digits(p, end, &d->word, &count);
-  const char *whole = skip_digits(p, end);
-  bool fits = whole == p, any = whole > d->digits;
-  p = whole;
+  p = take_digits(p, end, &d->word);
+  ptrdiff_t count = p - d->digits;
   if (p < end && *p == '.') {
-    int before = count;
-    p = take_digits(whole + 1, end, &d->word, &count);
-    d->shift = before - count;
-    const char *fraction = skip_digits(p, end);
-    fits = fits && fraction == p;
-    any = any || fraction > whole + 1;
-    p = fraction;
+    const char *fraction = p + 1;
+    p = take_fraction(fraction, end, &d->word);
+    d->shift = fraction - p;
+    count += p - fraction;
   }
-  if (!any) return NULL;
+  if (count == 0) return NULL;
   d->digits_end = p;
-  if (!fits) take_long(d);
-  return take_exponent(p, end, &d->exponent);
+  if (count > WORD_DIGITS) take_long(d);
+  if (p < end && (*p | 0x20) == 'e') return take_exponent(p, end, &d->exponent);
+  return p;
 }
 
 // Round the decimal by way of double precision.  The word, at most three
-// factors and the digits that were cut off each err by 2^-53 at most, relative:
-// together less than 5 units in the last place of the double.  A float's
-// midpoints are the doubles whose low 29 bits are 1 0...0, so a double that is
-// more than ROUNDING_GUARD units away from that pattern rounds to the same
-// float as the decimal itself.  False where this decides nothing: near a
-// midpoint, and outside the range of normal floats.
-static bool decimal_fast(const decimal *d, float *out) {
+// powers, as many products and the digits that were cut off each err by 2^-53
+// at most, relative: together by less than 8 units in the last place of the
+// double.  A float's midpoints are the doubles whose low 29 bits are 1 0...0,
+// so a double that is more than ROUNDING_GUARD units away from that pattern
+// rounds to the same float as the decimal itself.  False where this decides
+// nothing: near a midpoint, and outside the range of normal floats.
+static inline bool decimal_fast(const decimal *d, float *out) {
   int64_t power = d->shift + d->exponent;
   if (power < -66 || power > 44) return false;
   double x = (double)d->word;
   for (; power > 22; power -= 22)
     x *= POWER_OF_TEN[22];
   for (; power < -22; power += 22)
-    x /= POWER_OF_TEN[22];
-  x = power < 0 ? x / POWER_OF_TEN[-power] : x * POWER_OF_TEN[power];
+    x *= POWER_OF_TENTH[22];
+  x *= power < 0 ? POWER_OF_TENTH[-power] : POWER_OF_TEN[power];
   if (!(x >= (double)FLT_MIN && x <= (double)FLT_MAX)) return false;
   uint64_t bits;
   memcpy(&bits, &x, sizeof bits);
-  int64_t low = (int64_t)(bits & 0x1fffffff);
-  int64_t away = low - 0x10000000;
+  int64_t away = (int64_t)(bits & 0x1fffffff) - 0x10000000;
   if (away >= -ROUNDING_GUARD && away <= ROUNDING_GUARD) return false;
   *out = (float)x;
   return true;

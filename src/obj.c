@@ -157,11 +157,13 @@ static bool check_limits(const obj_job *job, error *err) {
               most);
 }
 
-// What to say of a tally; %s is its count and "s" or nothing after it.
-static const struct {
+// What to say of a tally of one and of more.
+typedef struct tally_text {
   report_kind kind;
   const char *one, *many;
-} TALLY_TEXT[OBJ_TALLY_COUNT] = {
+} tally_text;
+
+static const tally_text TALLY_TEXT[OBJ_TALLY_COUNT] = {
     [OBJ_TALLY_SHORT_FACE] = {REPORT_WARNING,
                               "face with fewer than 3 corners skipped",
                               "faces with fewer than 3 corners skipped"},
@@ -257,6 +259,8 @@ static void report_flaws(obj_job *job, report *r) {
               "face(s) with a normal that does not exist");
   report_flaw(job, r, offsetof(obj_findings, polygon),
               "polygon(s) without area or crossing themselves, cut anyhow");
+  report_flaw(job, r, offsetof(obj_findings, flat),
+              "triangle(s) without area, which nothing can hit");
   if (job->m.triangle_count == 0)
     report_warn(r, "%s: no faces, nothing to draw", job->source.name);
 }

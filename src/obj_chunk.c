@@ -25,11 +25,10 @@ void obj_add_texcoord(obj_chunk *c, vec2 t) {
   c->texcoords[i] = t;
 }
 
-void obj_add_corner(obj_chunk *c, obj_corner corner) {
-  size_t i = c->corner_count++;
-  if (i == c->corner_room)
-    c->corners = array_grow(c->corners, &c->corner_room, i + 1, sizeof corner);
-  c->corners[i] = corner;
+// Room for one corner more.
+void obj_grow_corners(obj_chunk *c) {
+  c->corners = array_grow(c->corners, &c->corner_room, c->corner_count + 1,
+                          sizeof *c->corners);
 }
 
 void obj_add_face(obj_chunk *c, size_t first, uint64_t line) {

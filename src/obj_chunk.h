@@ -24,7 +24,7 @@ typedef struct obj_event {
   obj_event_kind kind;
   uint32_t triangle;
   size_t name, length;  // in the chunk's names
-  int64_t value;        // smoothing group; line of a library
+  int64_t value;        // smoothing group; line of usemtl, mtllib
 } obj_event;
 
 // What is counted, with the line where it was first seen.
@@ -91,7 +91,12 @@ typedef struct obj_chunk {
 void obj_add_position(obj_chunk *c, vec3 p);
 void obj_add_normal(obj_chunk *c, vec3 n);
 void obj_add_texcoord(obj_chunk *c, vec2 t);
-void obj_add_corner(obj_chunk *c, obj_corner corner);
+void obj_grow_corners(obj_chunk *c);
+
+static inline void obj_add_corner(obj_chunk *c, obj_corner corner) {
+  if (c->corner_count == c->corner_room) obj_grow_corners(c);
+  c->corners[c->corner_count++] = corner;
+}
 
 // The corners from `first` on are a face, at least three.
 void obj_add_face(obj_chunk *c, size_t first, uint64_t line);

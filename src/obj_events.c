@@ -10,8 +10,8 @@
 typedef struct event_state {
   name_table objects, groups, materials;
   const char **libraries;
-  uint64_t *library_lines;
-  size_t library_count, library_room, line_room;
+  uint64_t *library_lines, *material_lines;
+  size_t library_count, library_room, line_room, material_room;
   size_t object_statements, group_statements;
   mesh_run open;
   mesh_run *runs;
@@ -38,6 +38,16 @@ static void close_run(event_state *s, size_t triangle) {
   s->open.first = (uint32_t)triangle;
 }
 
+// A usemtl in the given line.
+static void use_material(event_state *s, span name, uint64_t line, arena *mem) {
+  size_t known = s->materials.count;
+  s->open.material = name_table_add(&s->materials, name, mem);
+  if (s->materials.count == known) return;
+  s->material_lines =
+      array_grow(s->material_lines, &s->material_room, known + 1, sizeof line);
+  s->material_lines[known] = line;
+}
+
 // line is the number of the line before the chunk.
 static void apply_event(event_state *s, const obj_event *e, span name,
                         uint64_t line, arena *mem) {
@@ -51,7 +61,7 @@ static void apply_event(event_state *s, const obj_event *e, span name,
     s->group_statements++;
     break;
   case OBJ_EVENT_MATERIAL:
-    s->open.material = name_table_add(&s->materials, name, mem);
+    use_material(s, name, line + (uint64_t)e->value, mem);
     break;
   case OBJ_EVENT_SMOOTH: s->open.smooth = e->value; break;
   case OBJ_EVENT_LIBRARY:
@@ -101,7 +111,10 @@ void obj_merge_events(mesh *m, const obj_chunk *chunks, const obj_place *places,
   m->group_count = s.groups.count;
   m->material_names = s.materials.names;
   m->material_count = s.materials.count;
+  m->material_lines = keep_items(s.material_lines, s.materials.count,
+                                 sizeof *s.material_lines, mem);
   array_free(s.runs);
   array_free(s.libraries);
   array_free(s.library_lines);
+  array_free(s.material_lines);
 }

@@ -17,12 +17,14 @@ enum { QUOTE_BYTES = 40 };
 static const char *const FREE_FORM[] = {
     "vp",   "cstype", "deg",  "bmat", "step", "curv", "curv2",
     "surf", "parm",   "trim", "hole", "scrv", "sp",   "end",
-    "con",  "cdc",    "cdp",  "bzp",  "bsp",  "res",  NULL};
+    "con",  "cdc",    "cdp",  "bzp",  "bsp",  "res",  NULL,
+};
 
 // How to show things, for programs that are long gone.
 static const char *const DISPLAY[] = {
     "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj", "ctech",
-    "stech", "maplib",   "usemap",   "mg",  "call",       "csh",       NULL};
+    "stech", "maplib",   "usemap",   "mg",  "call",       "csh",       NULL,
+};
 
 static void tally(obj_chunk *c, obj_tally_kind kind, uint64_t line) {
   if (c->tally[kind].count++ == 0) c->tally[kind].line = line;
@@ -245,7 +247,7 @@ void obj_line_parse(obj_chunk *c, span line, uint64_t number) {
   } else if (span_is(keyword, "f") || span_is(keyword, "fo")) {
     line_face(c, data, number);
   } else if (span_is(keyword, "usemtl")) {
-    add_event(c, OBJ_EVENT_MATERIAL, name, 0);
+    add_event(c, OBJ_EVENT_MATERIAL, name, (int64_t)number);
   } else if (span_is(keyword, "g")) {
     add_event(c, OBJ_EVENT_GROUP, name, 0);
   } else if (span_is(keyword, "o")) {

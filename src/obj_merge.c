@@ -2,6 +2,7 @@
 
 #include "obj_merge.h"
 
+#include "pages.h"
 #include "polygon.h"
 
 #include <string.h>
@@ -21,8 +22,10 @@ void obj_places(const obj_chunk *chunks, size_t n, obj_place *places) {
   }
 }
 
-// memcpy for arrays that may be NULL when they are empty.
+// memcpy into memory that nobody has written yet, from arrays that may be NULL
+// when they are empty.
 static void copy_items(void *to, const void *from, size_t bytes) {
+  pages_expect(to, bytes);
   if (bytes > 0) memcpy(to, from, bytes);
 }
 
@@ -111,6 +114,28 @@ static obj_flaw merge_kind(const obj_chunk *c, const index_kind *k,
   return bad > 0 ? find_flaw(c, k->given, k->base, k->total) : (obj_flaw){0};
 }
 
+// Whether triangle t of m has no area at all, so that no ray can hit it.
+static bool is_flat(const mesh *m, size_t t) {
+  const uint32_t *i = m->position_index + 3 * t;
+  vec3 a = m->positions[i[0]], b = m->positions[i[1]], c = m->positions[i[2]];
+  double bx = (double)b.x - (double)a.x, cx = (double)c.x - (double)a.x;
+  double by = (double)b.y - (double)a.y, cy = (double)c.y - (double)a.y;
+  double bz = (double)b.z - (double)a.z, cz = (double)c.z - (double)a.z;
+  return by * cz == bz * cy && bz * cx == bx * cz && bx * cy == by * cx;
+}
+
+// The flat ones among the faces that were triangles as written; the first
+// triangle of the chunk is number t.
+static obj_flaw find_flat(const mesh *m, const obj_chunk *c, size_t t) {
+  obj_flaw flaw = {0};
+  for (size_t face = 0; face < c->face_count; face++) {
+    size_t n = c->faces != NULL ? c->faces[face] : 3;
+    if (n == 3 && is_flat(m, t) && flaw.count++ == 0) flaw.first = face;
+    t += n - 2;
+  }
+  return flaw;
+}
+
 // Cut a polygon into triangles, given as corners from 0; false when it crosses
 // itself or has no area.
 static bool cut_polygon(const mesh *m, const uint32_t *positions, size_t n,
@@ -158,6 +183,7 @@ obj_findings obj_merge_faces(const mesh *m, const obj_chunk *c,
   for (int k = 0; k < 3; k++) {
     // Triangles go straight into the mesh.
     uint32_t *to = kinds[k].mesh != NULL ? kinds[k].mesh + out : NULL;
+    if (to != NULL) pages_expect(to, 3 * c->triangle_count * sizeof *to);
     if (to == NULL || c->faces != NULL) {
       s->resolved[k] = array_grow(s->resolved[k], &s->resolved_room[k], n,
                                   sizeof *s->resolved[k]);
@@ -165,8 +191,9 @@ obj_findings obj_merge_faces(const mesh *m, const obj_chunk *c,
     }
     f.index[k] = merge_kind(c, &kinds[k], to, &f.has[k]);
   }
-  if (f.index[0].count == 0 && c->faces != NULL)
-    f.polygon = cut_faces(m, c, kinds, out, s);
+  if (f.index[0].count > 0) return f;
+  if (c->faces != NULL) f.polygon = cut_faces(m, c, kinds, out, s);
+  f.flat = find_flat(m, c, at->triangle);
   return f;
 }
 

@@ -24,6 +24,7 @@ typedef struct obj_flaw {
 typedef struct obj_findings {
   obj_flaw index[3];  // an index out of range
   obj_flaw polygon;   // crosses itself or has no area
+  obj_flaw flat;      // a triangle without area
   bool has[3];        // some index was right
 } obj_findings;
 

@@ -2,6 +2,8 @@
 
 #include "obj_pack.h"
 
+#include "pages.h"
+
 #include <string.h>
 
 // n bytes in the store, aligned for any of the arrays.
@@ -10,6 +12,7 @@ static void *store_take(obj_store *s, size_t bytes) {
   if (bytes > s->left) {
     s->left = bytes > s->block_bytes ? bytes : s->block_bytes;
     s->at = arena_alloc(&s->mem, s->left, 1);
+    pages_expect(s->at, s->left);
   }
   void *p = s->at;
   s->at += bytes;

@@ -2,7 +2,6 @@
 
 #include "obj_parse.h"
 
-#include "digits.h"
 #include "number.h"
 #include "obj_line.h"
 
@@ -60,19 +59,19 @@ static const char *fast_texcoord(obj_chunk *c, const char *p, const char *end) {
   return p;
 }
 
-// An index of at most seven digits, not 0.
-static const char *fast_index(const char *p, size_t count, uint32_t *out) {
+// An index that is not 0 and has at most nine digits.
+static inline const char *fast_index(const char *p, size_t count,
+                                     uint32_t *out) {
   bool minus = *p == '-';
-  uint32_t value = 0;
   p += minus;
-  unsigned n = digits_take(p, &value);
-  if (n == 0 || n == 8 || value == 0) return NULL;
-  if (minus) {
-    obj_index(-(long long)value, count, out);
-  } else {
-    *out = value - 1;
-  }
-  return p + n;
+  const char *digits = p;
+  uint32_t value = 0;
+  for (unsigned d; (d = (unsigned)*p - '0') < 10; p++)
+    value = value * 10 + d;
+  if (value == 0 || p - digits > 9) return NULL;
+  *out = value - 1;
+  if (minus) obj_index(-(long long)value, count, out);
+  return p;
 }
 
 // V, V/VT, V//VN or V/VT/VN at p.

@@ -13,11 +13,10 @@ enum { CLIP_BUDGET = 2000 };
 // No corner.
 #define NO_CORNER UINT32_MAX
 
-// How picky the search for ears is.  Strict: a corner that turns left and no
-// other reflex corner in or on the triangle.  Touching: straight corners too,
-// and others may lie on the edges.  Any: whatever turns left; last of all,
-// whatever there is.
-typedef enum ear_rule { EAR_STRICT, EAR_TOUCHING, EAR_ANY, EAR_LAST } ear_rule;
+// How picky the search for ears is.  Strict: a corner that does not turn right,
+// and no other reflex corner in or on its triangle.  Any: whatever does not
+// turn right.  Last: the next corner, whatever it is.
+typedef enum ear_rule { EAR_STRICT, EAR_ANY, EAR_LAST } ear_rule;
 
 // A corner seen along the axis nearest to the polygon's normal.
 typedef struct flat {
@@ -168,16 +167,22 @@ static double turn_at(const clipper *c, uint32_t i) {
   return turn(c->p[c->prev[i]], c->p[i], c->p[c->next[i]]);
 }
 
-// Whether q keeps the triangle from being an ear.
-static bool blocks(flat q, const flat t[3], ear_rule rule) {
-  double u = turn(t[0], t[1], q), v = turn(t[1], t[2], q);
-  double w = turn(t[2], t[0], q);
-  if (rule == EAR_STRICT) return u >= 0 && v >= 0 && w >= 0;
-  return u > 0 && v > 0 && w > 0;
+static bool same_place(flat a, flat b) {
+  return a.x == b.x && a.y == b.y;
+}
+
+// Whether q lies in the triangle or on its edge.  A corner in the place of one
+// of the triangle's own does not count: outlines with holes are sewn up by
+// edges that run twice.
+static bool blocks(flat q, const flat t[3]) {
+  if (same_place(q, t[0]) || same_place(q, t[1]) || same_place(q, t[2]))
+    return false;
+  return turn(t[0], t[1], q) >= 0 && turn(t[1], t[2], q) >= 0 &&
+         turn(t[2], t[0], q) >= 0;
 }
 
 // Whether any reflex corner blocks the triangle around i.
-static bool is_blocked(clipper *c, uint32_t i, ear_rule rule) {
+static bool is_blocked(clipper *c, uint32_t i) {
   uint32_t own[3] = {c->prev[i], i, c->next[i]};
   flat t[3] = {c->p[own[0]], c->p[i], c->p[own[2]]};
   double lo_x = fmin(fmin(t[0].x, t[1].x), t[2].x);
@@ -193,23 +198,17 @@ static bool is_blocked(clipper *c, uint32_t i, ear_rule rule) {
          k++) {
       uint32_t q = c->head[(size_t)r * c->side + k];
       for (tests++; q != NO_CORNER && !blocked; q = c->below[q], tests++)
-        blocked =
-            q != own[0] && q != i && q != own[2] && blocks(c->p[q], t, rule);
+        blocked = q != own[0] && q != i && q != own[2] && blocks(c->p[q], t);
     }
   c->budget -= tests < c->budget ? tests : c->budget;
   return blocked;
 }
 
 static bool is_ear(clipper *c, uint32_t i, ear_rule rule) {
-  double t = turn_at(c, i);
   if (c->budget > 0) c->budget--;
-  switch (rule) {
-  case EAR_STRICT: return t > 0 && !is_blocked(c, i, rule);
-  case EAR_TOUCHING: return t >= 0 && !is_blocked(c, i, rule);
-  case EAR_ANY: return t >= 0;
-  case EAR_LAST: break;
-  }
-  return true;
+  if (rule == EAR_LAST) return true;
+  if (turn_at(c, i) < 0) return false;
+  return rule == EAR_ANY || !is_blocked(c, i);
 }
 
 // A neighbour of a corner that went: it may be no longer reflex, and it may
@@ -242,25 +241,27 @@ static void queue_all(clipper *c, uint32_t any) {
   } while (i != any);
 }
 
-// Clip until three corners are left.  A clipped ear changes only its
-// neighbours, so only they come into the queue again; when the queue runs dry
-// the rule is relaxed until something gives.
+// Clip until three corners are left.  A clipped ear changes its neighbours, so
+// they come into the queue again; where an outline touches itself it may free
+// others too, so a dry queue is filled with all that are left.  Only when that
+// gave nothing is the rule relaxed.
 static void clip_all(clipper *c) {
   ear_rule rule = EAR_STRICT;
+  bool clipped = true;
   uint32_t some = 0;  // a corner that is left
-  queue_all(c, 0);
   while (c->left > 3) {
+    if (c->budget == 0) rule = EAR_LAST;
     if (c->queue_n == 0) {
-      rule = c->budget > 0 && rule != EAR_LAST ? rule + 1 : EAR_LAST;
+      if (!clipped && rule != EAR_LAST) rule++;
       queue_all(c, some);
+      clipped = false;
     }
     uint32_t i = queue_pop(c);
-    if (c->gone[i]) continue;
-    if (c->budget == 0) rule = EAR_LAST;
-    if (!is_ear(c, i, rule)) continue;
+    if (c->gone[i] || !is_ear(c, i, rule)) continue;
     some = c->next[i];
     clip(c, i);
-    if (rule != EAR_LAST || c->budget > 0) rule = EAR_STRICT;
+    clipped = true;
+    rule = EAR_STRICT;
   }
   *c->out++ = c->prev[some];
   *c->out++ = some;

@@ -8,8 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const KIND_NAMES[RAYS_KINDS] = {"primary", "ao", "aod",
-                                                   "bounce", "random"};
+// In the order of ray_kind.
+static const char *const KIND_NAMES[RAYS_KINDS] = {
+    "primary", "ao", "aod", "bounce", "random",
+};
 
 const char *rays_kind_name(ray_kind kind) {
   return KIND_NAMES[kind];

@@ -105,7 +105,6 @@ static float texel_pair(float x, int n, bool clamp, int pair[2]) {
   int i = (int)lower;
   pair[0] = i >= 0 ? i : clamp ? 0 : n - 1;
   pair[1] = i + 1 < n ? i + 1 : clamp ? n - 1 : 0;
-  if (pair[0] >= n) pair[0] = n - 1;
   return at - lower;
 }
 

@@ -19,6 +19,10 @@ if command -v man >/dev/null && command -v groff >/dev/null; then
   else fail "the manual page is well formed"; fi
 else skip "the manual page is well formed" "no man"; fi
 
+"$facet" help render >"$T/out"
+ok "help shows the default" grep -q "samples a pixel" "$T/out"
+ok "of numbers" sh -c 'tr -s " \n" " " <out | grep -q "without it (default: 64)"'
+
 # Every option of every command, with every word that it offers.  The file is
 # not there, so exit 3 says that the command line itself was fine.
 for command in render view info compare ibl "bench load" "bench rays" "bench raster" "bench ibl"; do
@@ -140,7 +144,7 @@ if [ $? = 4 ]; then pass "info on closed output"; else fail "info on closed outp
 if [ "$(cat code)" = 4 ]; then pass "a reader that leaves"; else fail "a reader that leaves"; fi
 
 # On a terminal, which script(1) plays.
-if command -v script >/dev/null; then
+if script -qec true /dev/null </dev/null >/dev/null 2>&1; then
   tty() { TERM=${term-xterm} script -qec "$*" /dev/null </dev/null >"$T/out" 2>&1; }
   escape=$(printf '\033')
   tty "$facet" render missing.obj

@@ -44,7 +44,7 @@ enum { ROWS = 12, COLUMNS = 24, CELLS = ROWS * COLUMNS };
 // all of the hemisphere f cos of the first channel.
 static double cell_integral(const bsdf *b, vec3 wo, int row, int column,
                             double *f_cos) {
-  const int n = 32;
+  const int n = b->ns > 100 ? 96 : 32;  // fine enough for a narrow lobe
   double sum = 0, step = 2 * (double)PI / (double)CELLS / (n * n);
   for (int i = 0; i < n; i++)
     for (int j = 0; j < n; j++) {

@@ -88,7 +88,8 @@ static void directions_survive_the_round_trip(void **state) {
     }
 }
 
-// A lookup at a texel's centre gives the texel; across the seam and at the
+// A lookup at a texel's centre gives the texel, half way to the next one their
+// mean; across the seam and at the
 // poles the radiance has no jump.
 static void maps_have_no_seam(void **state) {
   (void)state;
@@ -101,6 +102,11 @@ static void maps_have_no_seam(void **state) {
       vec2 uv = {((float)x + 0.5f) / 16, ((float)y + 0.5f) / 8};
       vec3 got = env_radiance(&e, env_direction(uv));
       assert_vec3_close(got, e.map.pixels[16 * y + x], 2e-5f);
+      vec3 next = e.map.pixels[16 * y + (x + 1) % 16];
+      uv.x = fmodf(uv.x + 1.0f / 32, 1);
+      got = env_radiance(&e, env_direction(uv));
+      next = vec3_lerp(e.map.pixels[16 * y + x], next, 0.5f);
+      assert_vec3_close(got, next, 2e-5f);
     }
   for (int i = 1; i < 100; i++) {
     float v = (float)i / 100;

@@ -231,6 +231,9 @@ static void no_material_is_grey(void **state) {
   assert_int_equal(material_decide(&use, &mem).kind, MATERIAL_GLASS);
   use.name_rules = false;
   assert_int_equal(material_decide(&use, &mem).kind, MATERIAL_BLINN_PHONG);
+  use.object = NULL;
+  use.name = "mirror";
+  assert_int_equal(material_decide(&use, &mem).kind, MATERIAL_BLINN_PHONG);
   arena_free(&mem);
 }
 

@@ -91,7 +91,7 @@ static bool library_holds(const library_reading *x, const expectation *e) {
     found = m->map[MTL_MAP_BUMP - MTL_FIRST_MAP].channel == e->value[0];
   } else {
     for (int k = MTL_FIRST_MAP; k < MTL_KEY_COUNT; k++)
-      if (strcmp(mtl_key_name(k), e->name) == 0 &&
+      if (strcmp(mtl_key_name((mtl_key)k), e->name) == 0 &&
           m->map[k - MTL_FIRST_MAP].path != NULL)
         found = strcmp(m->map[k - MTL_FIRST_MAP].path, e->value) == 0;
   }
@@ -272,7 +272,7 @@ static void keys_have_names(void **state) {
   arena mem = {0};
   error err;
   for (int k = 0; k < MTL_KEY_COUNT; k++) {
-    const char *name = mtl_key_name(k);
+    const char *name = mtl_key_name((mtl_key)k);
     mtl_material m = mtl_default("x");
     bool known;
     assert_true(mtl_statement(&m, (span){name, strlen(name)}, (span){"1", 1}, 9,

@@ -5,6 +5,7 @@
 #include "mesh_join.h"
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -49,7 +50,7 @@ static void loaded_free(loaded *l) {
 static loaded *load_text(const char *text) {
   char folder[] = "/tmp/facet-scene-XXXXXX", path[64];
   assert_non_null(mkdtemp(folder));
-  snprintf(path, sizeof path, "%s/t.scene", folder);
+  snprintf(path, sizeof path, "%s/t.Scene", folder);
   FILE *f = fopen(path, "w");
   assert_non_null(f);
   fputs(text, f);
@@ -164,6 +165,110 @@ static void assignments_and_overrides_hold(void **state) {
 
 static bool same(vec3 a, vec3 b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+// The scene's material of a name goes before the library's under assign too;
+// a face without an object goes by its group, and the word in it is looked at
+// for each.
+static void names_are_looked_up_in_order(void **state) {
+  (void)state;
+  loaded *l = load_name("override.scene", NULL);
+  assert_int_equal(material_at(&l->scene, 4)->rule, 1);
+  assert_true(material_at(&l->scene, 4)->kd.z == 1);
+  loaded_free(l);
+  l = load_name("groups.obj", NULL);
+  assert_int_equal(material_at(&l->scene, 0)->kind, MATERIAL_BLINN_PHONG);
+  assert_int_equal(material_at(&l->scene, 1)->kind, MATERIAL_GLASS);
+  assert_int_equal(material_at(&l->scene, 2)->kind, MATERIAL_MIRROR);
+  loaded_free(l);
+  char here[300], text[500];
+  assert_non_null(getcwd(here, sizeof here));
+  snprintf(text, sizeof text,
+           "mesh \"%s/%s/box.obj\"\nnewmtl object\nKd 0 1 0\n"
+           "assign object object lid\n",
+           here, FOLDER);
+  l = load_text(text);
+  if (!l->ok) fail_msg("%s", l->err.text);
+  assert_string_equal(material_at(&l->scene, 8)->name, "object");
+  loaded_free(l);
+}
+
+// Any number of statements of a kind is kept, in order.
+static void many_lights_are_kept(void **state) {
+  (void)state;
+  char here[300], text[8000];
+  assert_non_null(getcwd(here, sizeof here));
+  int n = snprintf(text, sizeof text, "mesh \"%s/%s/box.obj\"\n", here, FOLDER);
+  for (int i = 0; i < 100; i++)
+    n += snprintf(text + n, sizeof text - (size_t)n,
+                  "light point %d 0 0 intensity 1 1 %d\n", i, 2 * i);
+  loaded *l = load_text(text);
+  assert_int_equal(l->scene.light_count, 100);
+  for (int i = 0; i < 100; i++)
+    assert_true(l->scene.lights[i].at.x == (float)i &&
+                l->scene.lights[i].power.z == (float)(2 * i));
+  loaded_free(l);
+}
+
+// A texture is loaded, or with skip_textures only looked for.
+static void textures_are_loaded(void **state) {
+  (void)state;
+  loaded *l = load_name("textured.obj", NULL);
+  const material *m = &l->scene.materials[0];
+  assert_non_null(m->map_kd.image);
+  assert_int_equal(m->map_kd.image->width, 4);
+  assert_true(m->kd.x == 1);
+  loaded_free(l);
+  scene_options skip = {.skip_textures = true};
+  l = load_name("textured.obj", &skip);
+  assert_null(l->scene.materials[0].map_kd.image);
+  assert_true(l->scene.materials[0].kd.x == 1);
+  loaded_free(l);
+}
+
+// Normals are smoothed over any angle unless a crease is given; bounds leave
+// out what is not finite.
+static void geometry_is_prepared(void **state) {
+  (void)state;
+  loaded *l = load_name("smooth.obj", NULL);
+  const mesh *m = &l->scene.mesh;
+  vec3 n = m->normals[m->normal_index[0]];
+  assert_true(fabsf(n.z - 0.70710678f) < 1e-6f);
+  assert_true(fabsf(n.y - 0.70710678f) < 1e-6f);
+  loaded_free(l);
+  l = load_name("not finite.obj", NULL);
+  assert_true(same(l->scene.lo, vec3_all(0)) && l->scene.hi.y == 1);
+  assert_true(l->scene.hi.z == 0);
+  loaded_free(l);
+}
+
+// Placing turns normals but does not scale them; joining fills in white where
+// only one part has colours.
+static void normals_and_colors_are_joined(void **state) {
+  (void)state;
+  vec3 p[3] = {{1, 2, 3}, {1, 0, 0}, {0, 1, 0}}, n[1] = {{1, 2, 3}};
+  vec3 c[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  uint32_t index[3] = {0, 1, 2}, normal_index[3] = {0, MESH_NONE, 0};
+  mesh parts[2] = {{.position_count = 3,
+                    .triangle_count = 1,
+                    .positions = p,
+                    .position_index = index},
+                   {0}};
+  parts[1] = parts[0];
+  parts[1].colors = c;
+  parts[1].normals = n;
+  parts[1].normal_count = 1;
+  parts[1].normal_index = normal_index;
+  mesh_place(&parts[1], 2, true);
+  assert_true(same(p[0], (vec3){2, 6, -4}) && same(n[0], (vec3){1, 3, -2}));
+  arena mem = {0};
+  error err;
+  mesh m;
+  assert_true(mesh_join(&m, parts, 2, &mem, &err));
+  assert_true(same(m.colors[1], vec3_all(1)) && same(m.colors[4], c[1]));
+  assert_true(m.normal_index[0] == MESH_NONE && m.normal_index[3] == 0);
+  assert_true(m.normal_index[4] == MESH_NONE && m.texcoord_index == NULL);
+  arena_free(&mem);
 }
 
 // Meshes are joined in order; scale and up move the points; runs, names and
@@ -354,7 +459,7 @@ static void uv_is_interpolated(void **state) {
 static void closed_means_no_border(void **state) {
   (void)state;
   vec3 p[8];
-  uint32_t index[36], tag[12] = {0};
+  uint32_t index[39], tag[13] = {0};
   static const uint32_t quad[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
                                       {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
   for (int i = 0; i < 8; i++)
@@ -372,12 +477,64 @@ static void closed_means_no_border(void **state) {
             .position_index = index};
   assert_true(mesh_is_closed(&m, tag, 0));
   assert_true(mesh_is_closed(&m, tag, 1));
-  corners[4].x = 0.5f;
+  vec3 kept = corners[4];
+  corners[4].x += 0.5f;
   assert_false(mesh_is_closed(&m, tag, 0));
-  corners[4] = corners[7];
+  corners[4] = kept;
+  // A triangle that is a point or a line takes nothing away.
+  m.triangle_count = 13;
+  index[36] = 5;
+  index[37] = index[38] = 5;
+  assert_true(mesh_is_closed(&m, tag, 0));
+  m.triangle_count = 12;
   tag[3] = 1;
   assert_false(mesh_is_closed(&m, tag, 0));
   assert_false(mesh_is_closed(&m, tag, 1));
+}
+
+// Read the first n bytes as a scene file; what is refused says where.
+static void read_bytes(const char *path, const char *bytes, size_t n) {
+  int file = open(path, O_WRONLY | O_CREAT, 0600);
+  assert_true(file >= 0);
+  assert_true(write(file, bytes, n) == (ssize_t)n);
+  assert_int_equal(ftruncate(file, (off_t)n), 0);
+  close(file);
+  arena mem = {0};
+  report r = {.mem = &mem};
+  error err = {{0}};
+  scene_file out = {.exposure = 77};
+  bool ok = scene_file_read(&out, path, &mem, &r, &err);
+  assert_true(ok || strncmp(err.text, path, strlen(path)) == 0);
+  assert_true(ok || out.exposure == 77);
+  arena_free(&mem);
+}
+
+// Every beginning of a good file, and the file with one byte changed, is read
+// or refused with its name, and nothing else happens.
+static void damaged_files_are_read_or_refused(void **state) {
+  (void)state;
+  char folder[] = "/tmp/facet-scene-XXXXXX", path[64], bytes[2000];
+  assert_non_null(mkdtemp(folder));
+  snprintf(path, sizeof path, "%s/t.scene", folder);
+  FILE *f = fopen("tests/data/scene/full.scene", "rb");
+  assert_non_null(f);
+  size_t n = fread(bytes, 1, sizeof bytes, f);
+  fclose(f);
+  assert_true(n > 500 && n < sizeof bytes);
+  for (size_t i = 0; i <= n; i++)
+    read_bytes(path, bytes, i);
+  uint32_t random = 1;
+  int turns = getenv("FACET_QUICK") == NULL ? 5000 : 500;
+  for (int i = 0; i < turns; i++) {
+    random = random * 1664525u + 1013904223u;
+    size_t at = (random >> 8) % n;
+    char old = bytes[at];
+    bytes[at] = (char)(random >> 24);
+    read_bytes(path, bytes, n);
+    bytes[at] = old;
+  }
+  remove(path);
+  rmdir(folder);
 }
 
 // An OBJ that is not there is an error that names it.
@@ -397,6 +554,11 @@ int main(void) {
       cmocka_unit_test(files_do_what_they_say),
       cmocka_unit_test(statements_arrive),
       cmocka_unit_test(assignments_and_overrides_hold),
+      cmocka_unit_test(names_are_looked_up_in_order),
+      cmocka_unit_test(many_lights_are_kept),
+      cmocka_unit_test(textures_are_loaded),
+      cmocka_unit_test(geometry_is_prepared),
+      cmocka_unit_test(normals_and_colors_are_joined),
       cmocka_unit_test(meshes_are_joined),
       cmocka_unit_test(options_win),
       cmocka_unit_test(text_reads_back),
@@ -404,6 +566,7 @@ int main(void) {
       cmocka_unit_test(what_is_missing_is_told),
       cmocka_unit_test(uv_is_interpolated),
       cmocka_unit_test(closed_means_no_border),
+      cmocka_unit_test(damaged_files_are_read_or_refused),
       cmocka_unit_test(missing_files_are_errors),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -214,7 +214,7 @@ static void any_coordinate_is_safe(void **state) {
   const uint8_t grey[6] = {100, 120, 140, 160, 180, 200};
   texture_map m = map_of(tga(d, "grey.tga", 3, 2, 1, grey), false);
   const float odd[] = {NAN,    INFINITY, -INFINITY, 1e30f,       -1e30f,  1e9f,
-                       -1e-9f, -0.0f,    1,         0.99999994f, 16777217};
+                       -1e-9f, -0.0f,    1,         0.99999994f, 16777216};
   const size_t n = sizeof odd / sizeof *odd;
   for (size_t i = 0; i < 2 * n * n; i++) {
     m.options.clamp = i % 2;

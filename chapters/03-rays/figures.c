@@ -486,7 +486,7 @@ static void print_speed(output *o) {
   model m = knot(&o->mem, 60, 7);
   camera c = {NULL, {2, 3, 9.5f}, {0, 0, 0}, {0, 1, 0}, 43};
   camera_view v = view_of(c, 100, 100);
-  double best = INFINITY;
+  double best = HUGE_VAL;
   int hits = 0;
   for (int turn = 0; turn < 3; turn++) {
     double start = seconds();

@@ -497,8 +497,8 @@ static void draw_cost(output *o) {
   g.scale[1] = g.scale[2] = 0;
   sah_split best = sah_best_split(&bins, &g, area);
   image im = sheet_of(o, 480, 360);
-  plot scene = {im, 48, 6, 424, 118, 0, 1, 0, 0.62f};
-  plot p = {im, 48, 140, 424, 180, 0, 1, 0.2f, 1};
+  plot scene = {im, 48, 6, 420, 118, 0, 1, 0, 0.62f};
+  plot p = {im, 48, 140, 420, 180, 0, 1, 0, 1};
   draw_lamp(&scene, refs, n);
   draw_sides(&scene, &best);
   plot_frame(&p);
@@ -514,16 +514,16 @@ static void draw_cost(output *o) {
   }
   float middle = low + 0.5f * width, half = centre_x(&refs[n / 2]);
   float cut = low + width * (float)(best.after + 1) / SAH_MAX_BINS;
-  plot_line(&p, (vec2){middle, 0.2f}, (vec2){middle, 1}, ORANGE);
-  plot_line(&p, (vec2){half, 0.2f}, (vec2){half, 1}, GREEN);
-  plot_line(&p, (vec2){cut, 0.2f}, (vec2){cut, 1}, RED);
+  plot_line(&p, (vec2){middle, 0}, (vec2){middle, 1}, ORANGE);
+  plot_line(&p, (vec2){half, 0}, (vec2){half, 1}, GREEN);
+  plot_line(&p, (vec2){cut, 0}, (vec2){cut, 1}, RED);
   text(im, (int)plot_at(&p, middle, 0).x - 54, 146, ORANGE, "MIDDLE");
-  text(im, (int)plot_at(&p, half, 0).x + 8, 300, GREEN, "MEDIAN");
+  text(im, (int)plot_at(&p, half, 0).x + 8, 304, GREEN, "MEDIAN");
   text(im, (int)plot_at(&p, cut, 0).x + 8, 146, RED, "CHEAPEST");
   for (int k = 0; k <= 5; k++)
     plot_tick(&p, true, 0.2f * (float)k,
               arena_format(&o->mem, "%.1f", 0.2 * k));
-  for (int k = 1; k <= 5; k++)
+  for (int k = 0; k <= 5; k++)
     plot_tick(&p, false, 0.2f * (float)k,
               arena_format(&o->mem, "%.1f", 0.2 * k));
   text(im, 180, 345, INK, "POSITION OF THE CUT");
@@ -587,7 +587,7 @@ static void draw_heats(output *o, const mesh *m, const bvh *sah) {
 
 // How to meet a box, four ways that are not facet's.
 typedef enum slab_style {
-  MINMAX,    // (lo - o) * inv, sorted by min and max, NaN or not
+  MINMAX,    // (lo - o) * inv, sorted and joined by min and max
   PRODUCTS,  // lo * inv - o * inv, by comparisons
   BARE,      // (lo - o) * inv, by comparisons, and nothing else
   FACTOR     // the same, far times 1 + 2 gamma(3)
@@ -608,8 +608,12 @@ static void wrong_axis(slab_style style, const float plane[2],
                              : (plane[k] - od[0]) * inv;
   float near = inv < 0 ? t[1] : t[0], far = inv < 0 ? t[0] : t[1];
   if (style == MINMAX) {
+    // As the machine's instructions do it: of NaN and a number, the second.
     near = t[0] < t[1] ? t[0] : t[1];
     far = t[0] > t[1] ? t[0] : t[1];
+    span->near = span->near > near ? span->near : near;
+    span->far = span->far < far ? span->far : far;
+    return;
   }
   if (style == FACTOR) far *= 1 + 2 * (3 * 0x1p-24f / (1 - 3 * 0x1p-24f));
   if (near > span->near) span->near = near;
@@ -672,24 +676,29 @@ static void add_block(mesh *m, const float *b) {
   m->triangle_count += 10;
 }
 
-// A town of whole numbers on a square of ground, 16 x 16.
+// Ground from -1 to 19.
+static vec3 ground_map(float u, float v, const float *shape) {
+  (void)shape;
+  return (vec3){20 * u - 1, 0, 20 * v - 1};
+}
+
+// A town of whole numbers on ground of 20 x 20 tiles.
 static mesh town_mesh(arena *mem) {
-  mesh m = mesh_room(mem, 8 * 65, 12 * 65);
+  mesh m = mesh_room(mem, 8 * 64 + 21 * 21, 10 * 64 + 2 * 20 * 20);
+  add_grid(&m, ground_map, NULL, 20, 20);
   for (uint32_t k = 0; k < 64; k++) {
-    float x = 2 * (float)(k % 8), z = 2 * floorf((float)k / 8);
+    float x = 1 + 2 * (float)(k % 8), z = 1 + 2 * (float)(k / 8);
     float h = floorf(1 + 7 * scatter(k) * scatter(k + 64));
     const float b[6] = {x, 0,
                         z, x + (scatter(k + 128) < 0.3f ? 2.0f : 1.0f),
                         h, z + (scatter(k + 192) < 0.3f ? 2.0f : 1.0f)};
     add_block(&m, b);
   }
-  const float ground[6] = {-1, -1, -1, 17, 0, 17};
-  add_block(&m, ground);
   return m;
 }
 
-// The town straight from above, 13 rays a unit: in the middle of each 13 a
-// pixel's ray lies in the plane of a wall.
+// The town straight from above, 13 rays a unit: one of 13 lies in the planes
+// where tiles and walls meet.
 static void draw_lost(output *o) {
   mesh m = town_mesh(&o->mem);
   bvh b = tree_of(&m, BVH_SAH, o);
@@ -699,12 +708,14 @@ static void draw_lost(output *o) {
   size_t lost = 0;
   for (int i = 0; i < 472 * 236; i++) {
     int side = i % 472 / 236, x = i % 236, y = i / 472;
-    ray r = ray_from((vec3){(float)(x - 14) / 13, 20, (float)(y - 14) / 13},
+    ray r = ray_from((vec3){(float)(x - 1) / 13, 20, (float)(y - 1) / 13},
                      (vec3){0, -1, 0});
     hit h;
     bool found = by[side].closest(by[side].tree, &r, &h);
     lost += !found;
-    vec3 c = found ? vec3_all(1.25f / (h.t - 8)) : RED;
+    float high = found ? (20 - h.t) / 8 : 0;
+    vec3 c = {0.2f + 0.7f * high, 0.24f + 0.6f * high, 0.16f + 0.6f * high};
+    if (!found) c = RED;
     blend(im, 244 * side + x, y, c, 1);
   }
   publish(o, "lost", im);
@@ -714,28 +725,28 @@ static void draw_lost(output *o) {
 // Rays at points of each edge of each triangle.
 enum { EDGE_RAYS = 300 };
 
-// From inside a ball, rays at points of all its edges; those that find
-// nothing are marked.  Returns how many.
-static size_t draw_edges(panel *p, const mesh *m, tracer find) {
+// From `eye` inside a ball about `at`, rays at points of all its edges, on a
+// map of directions from the centre; those that find nothing are marked on
+// it.  Returns how many; im may have no pixels.
+static size_t draw_edges(image im, const mesh *m, tracer find, vec3 at,
+                         vec3 eye) {
   size_t lost = 0;
   for (size_t i = 0; i < 3 * m->triangle_count; i++) {
     vec3 a = m->positions[m->position_index[i]];
     vec3 b = m->positions[m->position_index[i % 3 == 2 ? i - 2 : i + 1]];
     for (int k = 0; k < EDGE_RAYS; k++) {
-      vec3 q = vec3_lerp(a, b, (float)k / EDGE_RAYS), eye = p->view.eye;
+      vec3 q = vec3_lerp(a, b, (float)k / EDGE_RAYS);
       ray r = ray_from(eye, vec3_sub(q, eye));
       hit h;
       bool found = find.closest(find.tree, &r, &h);
-      lost += !found;
-      vec3 d = vec3_sub(q, eye);
-      if (vec3_dot(d, p->view.forward) < 0.2f * vec3_length(d)) continue;
-      vec3 s = panel_project(p, q);
-      int x = (int)floorf(s.x), y = (int)floorf(s.y);
-      if (x < 1 || y < 1 || x >= p->width - 1 || y >= p->height - 1) continue;
+      vec3 d = vec3_unit(vec3_sub(q, at));
+      int x = (int)(num_turns(d.z, d.x) * (float)im.width);
+      int y = (int)(num_acos_pi(d.y) * (float)im.height);
       if (found)
-        blend(p->im, p->left + x, p->top + y, INK, 0.1f);
+        blend(im, x, y, GREY, 0.05f);
       else
-        box_fill(p->im, p->left + x - 1, p->top + y - 1, 3, 3, RED);
+        box_fill(im, x - 2, y - 2, 5, 5, RED);
+      lost += !found;
     }
   }
   return lost;
@@ -743,7 +754,7 @@ static size_t draw_edges(panel *p, const mesh *m, tracer find) {
 
 // The same without a picture, for every style and facet's own.
 static void count_leaks(const char *name, const mesh *m, const bvh *b,
-                        panel *p) {
+                        const vec3 at_eye[2]) {
   static const char *const names[5] = {"min and max", "products", "bare",
                                        "factor", "margins"};
   printf("%s, rays at edges that are lost of %zu:", name,
@@ -751,40 +762,47 @@ static void count_leaks(const char *name, const mesh *m, const bvh *b,
   for (int k = 0; k < 5; k++) {
     wrong_tree w = {b, (slab_style)k};
     tracer by = k < 4 ? (tracer){&w, wrong_closest, NULL} : bvh_tracer(b);
-    printf(" %s %zu", names[k], draw_edges(p, m, by));
+    printf(" %s %zu", names[k],
+           draw_edges((image){0}, m, by, at_eye[0], at_eye[1]));
   }
   printf("\n");
 }
 
-// A ball of radius 100 about a point a million units from the origin.
+// A ball about the origin, and one of radius 100 about a point a million
+// units away.
 static void draw_leaks(output *o) {
-  const vec3 at = {1000000, 1000000, 1000000};
+  const vec3 far = {1000000, 1000000, 1000000}, eye = {0.13f, 0.21f, -0.08f};
   mesh m = mesh_room(&o->mem, 33 * 17, 2 * 32 * 16);
   const float ball[4] = {0, 0, 0, 1};
   add_grid(&m, sphere_map, ball, 32, 16);
-  camera c = {NULL, {0.13f, 0.21f, -0.08f}, {0.2f, 0.1f, -1}, {0, 1, 0}, 80};
-  image im = sheet_of(o, 480, 236);
-  // Outside the sheet: only counted.
-  panel none = panel_of(o, im, (int[4]){500, 0, 236, 236}, &c);
   bvh b = tree_of(&m, BVH_SAH, o);
-  count_leaks("ball", &m, &b, &none);
-  for (size_t i = 0; i < m.position_count; i++)
-    m.positions[i] = vec3_mad(at, 100, m.positions[i]);
-  c.eye = vec3_mad(at, 100, c.eye);
-  c.target = vec3_mad(at, 100, c.target);
-  b = tree_of(&m, BVH_SAH, o);
-  none = panel_of(o, im, (int[4]){500, 0, 236, 236}, &c);
-  count_leaks("ball far away", &m, &b, &none);
+  count_leaks("ball", &m, &b, (vec3[2]){{0, 0, 0}, eye});
+  image im = sheet_of(o, 480, 240);
   wrong_tree bare = {&b, BARE};
-  tracer by[2] = {{&bare, wrong_closest, NULL}, bvh_tracer(&b)};
-  for (int k = 0; k < 2; k++) {
-    panel p = panel_of(o, im, (int[4]){244 * k, 0, 236, 236}, &c);
-    draw_edges(&p, &m, by[k]);
-  }
+  tracer by = {&bare, wrong_closest, NULL};
+  draw_edges(im, &m, by, (vec3){0, 0, 0}, eye);
   publish(o, "leaks", im);
+  for (size_t i = 0; i < m.position_count; i++)
+    m.positions[i] = vec3_mad(far, 100, m.positions[i]);
+  b = tree_of(&m, BVH_SAH, o);
+  count_leaks("ball far away", &m, &b, (vec3[2]){far, vec3_mad(far, 100, eye)});
 }
 
 // ---- Growth ----
+
+// Seconds to build, the best of three.
+static double build_time(const mesh *m, bvh_method method, pool *threads) {
+  double best = 1e9;
+  for (int k = 0; k < 3; k++) {
+    arena mem = {0};
+    bvh b;
+    bvh_build(&b, m->positions, m->position_index, (uint32_t)m->triangle_count,
+              method, &mem, threads);
+    if (b.seconds < best) best = b.seconds;
+    arena_free(&mem);
+  }
+  return best;
+}
 
 // The mean of nodes and triangles visited by random rays.
 static double mean_visits(const bvh *b, const ray_set *s) {
@@ -804,14 +822,13 @@ static float log10_of(double x) {
 
 static void draw_growth(output *o) {
   image im = sheet_of(o, 480, 320);
-  plot p = {im, 56, 10, 414, 266, 2, 6, 1, 6};
+  plot p = {im, 56, 10, 406, 266, 3, 6, 1, 6};
   vec2 before[3] = {{0}};
   static const char *const names[3] = {"EACH TRIANGLE", "MIDDLE", "SAH"};
   plot_frame(&p);
-  for (int step = 0; step < 8; step++) {
+  for (int step = 0; step < 7; step++) {
     arena mem = {0};
     mesh m = garden_mesh(&mem, 8 << step);
-    if (step > 6) break;
     output scratch = {o->folder, {0}, o->threads};
     bvh sah = tree_of(&m, BVH_SAH, &scratch);
     bvh middle = tree_of(&m, BVH_MEDIAN, &scratch);
@@ -831,13 +848,17 @@ static void draw_growth(output *o) {
       before[k] = at;
       vec2 on = plot_at(&p, at.x, at.y);
       if (step == 6)
-        text(im, (int)on.x - text_width(names[k]) - (k == 0 ? 12 : 0),
-             (int)on.y + (k == 2 ? 8 : -18), inks[k], names[k]);
+        text(im, (int)on.x - text_width(names[k]) - (k == 0 ? 40 : 0),
+             (int)on.y + (k == 1 ? -18 : 8), inks[k], names[k]);
     }
+    if (step == 6)
+      printf("its build: %.3f s with 1 thread, %.3f s with %d\n",
+             build_time(&m, BVH_SAH, NULL), build_time(&m, BVH_SAH, o->threads),
+             pool_threads(o->threads));
     arena_free(&scratch.mem);
     arena_free(&mem);
   }
-  for (int k = 2; k <= 6; k++)
+  for (int k = 3; k <= 6; k++)
     plot_tick(&p, true, (float)k, arena_format(&o->mem, "1E%d", k));
   for (int k = 1; k <= 6; k++)
     plot_tick(&p, false, (float)k, arena_format(&o->mem, "1E%d", k));
@@ -847,20 +868,6 @@ static void draw_growth(output *o) {
 }
 
 // ---- The table ----
-
-// Seconds to build, the best of three.
-static double build_time(const mesh *m, bvh_method method, pool *threads) {
-  double best = 1e9;
-  for (int k = 0; k < 3; k++) {
-    arena mem = {0};
-    bvh b;
-    bvh_build(&b, m->positions, m->position_index, (uint32_t)m->triangle_count,
-              method, &mem, threads);
-    if (b.seconds < best) best = b.seconds;
-    arena_free(&mem);
-  }
-  return best;
-}
 
 // The methods side by side, then rays a second by kind.
 static void print_table(output *o, const mesh *m) {
@@ -878,6 +885,7 @@ static void print_table(output *o, const mesh *m) {
   for (int k = 0; k < RAYS_KINDS; k++)
     printf(" %8s", rays_kind_name((ray_kind)k));
   printf("\n");
+  double list = 0;
   for (int w = 0; w < 4; w++) {
     arena mem = {0};
     bvh b = tree_of(m, ways[w].method, o);
@@ -896,12 +904,12 @@ static void print_table(output *o, const mesh *m) {
       s.rays += s.count / 2;
       s.count = 40;
       t = rays_trace(hits, &s, brute_tracer(&b), NULL, 1);
-      fprintf(stderr, "list: %.6f million rays a second\n",
-              (double)s.count / t * 1e-6);
+      list = (double)s.count / t * 1e-6;
     }
     printf("\n");
     arena_free(&mem);
   }
+  printf("the list, primary: %.6f\n", list);
 }
 
 int main(int argc, char **argv) {

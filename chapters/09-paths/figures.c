@@ -335,14 +335,14 @@ static void draw_convergence(output *o) {
 
 // The garden with 10 samples and 256, and without its lamp and with it.
 static void draw_garden(output *o) {
-  shot how = {.width = 184, .height = 104, .spp = 256};
+  shot how = {.width = 160, .height = 90, .spp = 256};
   const stage *s = stage_load(o, "scenes/garden.scene");
   image best = expose(s, take(o, s, how));
   how.spp = 10;
   image few = expose(s, take(o, s, how));
   image noise = row_of(o, (image[]){few, best}, 2);
   publish(o, "garden-noise", &noise);
-  how.spp = 64;
+  how.spp = 48;
   how.no_lights = true;
   image dark = expose(s, take(o, s, how));
   image lamp = row_of(o, (image[]){dark, best}, 2);
@@ -351,7 +351,7 @@ static void draw_garden(output *o) {
 
 // Its glass ball and its mirror ball closer: facets, and smooth.
 static void draw_facets(output *o) {
-  shot how = {.width = 442, .height = 250, .spp = 40};
+  shot how = {.width = 442, .height = 250, .spp = 32};
   how.x0 = 50, how.y0 = 64, how.x1 = 246, how.y1 = 194;
   const stage *flat = stage_load(o, "scenes/garden-facets.scene");
   const stage *s = stage_load(o, "scenes/garden.scene");
