@@ -47,7 +47,7 @@ CHAPTER_14 := $(CHAPTER_9) post view_state view_script view_paths view_window
 LIBRARY   := $(CHAPTER_14)
 CHAPTERS  := 1 2 3 4 5 6 7 8 9 14 17
 # The command line, the only floor that prints and exits.
-COMMAND   := json tonemap progress option_table option cmd_shared cmd_signals \
+COMMAND   := json tonemap progress option_id option_table option cmd_shared cmd_signals \
              cmd_output cmd_shot cmd_raster cmd_render cmd_view_say cmd_view cmd_info_scene \
              cmd_info cmd_compare cmd_bench cmd_bench_raster cmd_ibl cmd_bench_ibl \
              cmd_help main

@@ -77,7 +77,7 @@ typedef struct wave_job {
   wave_grid grid;    // synthesis
   const double *k;
   int degree, rows;  // rows of one half, with the equator
-  double *sine, *cosine;
+  double *sine, *cosine, *weight;
   wave_rgb *even, *odd;  // [m * rows + row]
   wave_roots roots;
 } wave_job;
@@ -148,11 +148,18 @@ static void analyse_rows(void *context, size_t row, int worker) {
   }
 }
 
-// The height of the belt that row j covers, times the width of its texels, is
-// their solid angle: (2 pi / width) 2 sin(theta) sin(pi / (2 height)).
-static double texel_solid_angle(const image *map, double sine) {
-  double belt = 2 * sine * sin(WAVE_PI / (2 * map->height));
-  return 2 * WAVE_PI / map->width * belt;
+// What a texel of each row weighs, so that sums of harmonics up to the height
+// of the map are exact: nearly its solid angle, but for the rows at the poles.
+// Source: Fejer 1933, his first rule.
+static void fill_weights(wave_job *job, arena *mem) {
+  int height = job->map->height;
+  job->weight = ARENA_NEW(mem, double, (size_t)job->rows);
+  for (int j = 0; j < job->rows; j++) {
+    double sum = 1, theta = WAVE_PI * (j + 0.5) / height;
+    for (int k = 1; k <= height / 2; k++)
+      sum -= 2 * cos(2 * k * theta) / (4.0 * k * k - 1);
+    job->weight[j] = 2 * WAVE_PI / job->map->width * 2 / height * sum;
+  }
 }
 
 // Sum of p[row] f[row] over the rows.
@@ -179,7 +186,7 @@ static void analyse_order(void *context, size_t order, int worker) {
   double turn = -WAVE_PI * m / job->map->width;
   wave_z shift = {cos(turn), sin(turn)};
   for (int j = 0; j < job->rows; j++) {
-    double weight = texel_solid_angle(job->map, job->sine[j]);
+    double weight = job->weight[j];
     for (int c = 0; c < 3; c++)
       for (int k = 0; k < 2; k++) {
         job->even[at + (size_t)j].c[c][k] *= weight;
@@ -222,6 +229,7 @@ void wave_analyse(wave *out, const image *map, arena *mem, pool *threads) {
   *job = (wave_job){
       .w = *out, .map = map, .degree = degree, .rows = (map->height + 1) / 2};
   wave_job_open(job, map->height, 0.5, &once);
+  fill_weights(job, &once);
   wave_roots_fill(&job->roots, map->width);
   pool_run(threads, (size_t)job->rows, analyse_rows, job);
   pool_run(threads, (size_t)degree + 1, analyse_order, job);

@@ -28,8 +28,8 @@ static inline size_t wave_at(const wave *w, int l, int m) {
   return (size_t)(m * (2 * w->degree + 3 - m) / 2 + l - m);
 }
 
-// The coefficients of a picture whose texels are points in their middle that
-// weigh their solid angle.  Its width is a power of two, up to 1024.
+// The coefficients of a picture whose texels are points in their middle; they
+// weigh nearly their solid angle.  Its width is a power of two, up to 1024.
 void wave_analyse(wave *out, const image *map, arena *mem, pool *threads);
 
 // The sum of k[l] a_lm Y_lm for l <= degree, at nodes u = i / width and v =

@@ -3,6 +3,8 @@
 #ifndef OPTION_TABLE_H
 #define OPTION_TABLE_H
 
+#include "option_id.h"
+
 #include <stdbool.h>
 
 // Commands as bits, so that an option can say which ones know it.
@@ -56,69 +58,6 @@ typedef struct option {
   bool open;
   const char *help;
 } option;
-
-// The options, in the order of help.
-typedef enum option_id {
-  OPT_OUTPUT,
-  OPT_FORMAT,
-  OPT_DEPTH,
-  OPT_RESOLUTION,
-  OPT_RESOLUTIONS,
-  OPT_CROP,
-  OPT_AOV,
-  OPT_ENGINE,
-  OPT_GL,
-  OPT_SHADING,
-  OPT_PBR_MODEL,
-  OPT_CAMERA,
-  OPT_EYE,
-  OPT_TARGET,
-  OPT_UP,
-  OPT_FOV,
-  OPT_UP_AXIS,
-  OPT_ENV,
-  OPT_ENV_ROTATE,
-  OPT_ENV_SCALE,
-  OPT_LIGHTS,
-  OPT_SHADOWS,
-  OPT_MSAA,
-  OPT_NORMALS,
-  OPT_CREASE,
-  OPT_NO_NAME_RULES,
-  OPT_SPP,
-  OPT_TIME,
-  OPT_ERROR,
-  OPT_MAX_DEPTH,
-  OPT_SEED,
-  OPT_INTEGRATOR,
-  OPT_SAMPLER,
-  OPT_BVH,
-  OPT_EXPOSURE,
-  OPT_TONEMAP,
-  OPT_POST,
-  OPT_SCRIPT,
-  OPT_SCENE,
-  OPT_METRIC,
-  OPT_FAIL,
-  OPT_DIFF,
-  OPT_Z_TEST,
-  OPT_KIND,
-  OPT_RAYS,
-  OPT_HITS,
-  OPT_EVAL,
-  OPT_REPEAT,
-  OPT_FRAMES,
-  OPT_CSV,
-  OPT_MAN,
-  OPT_THREADS,
-  OPT_STRICT,
-  OPT_JSON,
-  OPT_QUIET,
-  OPT_VERBOSE,
-  OPT_NO_COLOR,
-  OPT_HELP,
-  OPTION_COUNT
-} option_id;
 
 extern const option option_table[OPTION_COUNT];
 
