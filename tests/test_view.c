@@ -131,7 +131,7 @@ static void switches_switch(void **state) {
   static const view_key KEYS[] = {VIEW_SHIFT, VIEW_SPACE, VIEW_0};
   for (int i = 0; i < 3; i++) {
     assert_false(*on[i]);
-    for (int k = 0; k < 5; k++)
+    for (int k = 0; k < 4; k++)
       view_press(&s, KEYS[i], true);
     assert_true(*on[i]);
     view_press(&s, KEYS[i], false);
