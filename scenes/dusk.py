@@ -7,7 +7,8 @@ Row 0 is straight up, the middle of a row is -Z.  No measured sky: a blue that
 darkens upwards, and a glow on the horizon about where the sun went down.
 """
 import math
-import pathlib
+
+import hdrfile
 
 WIDTH, HEIGHT = 256, 128
 SUNSET = math.radians(24)  # from -Z towards +X
@@ -30,39 +31,6 @@ def radiance(azimuth, elevation):
                  for z, h, g, e in zip(ZENITH, HORIZON, GLOW, EMBER))
 
 
-def rgbe(color):
-    """Three mantissas and the shared exponent of the largest."""
-    mantissa, exponent = math.frexp(max(color))
-    scale = mantissa * 256 / max(color)
-    return [min(255, round(c * scale)) for c in color] + [exponent + 128]
-
-
-def run_lengths(values):
-    """One component of a row: runs of 4 and more equal values, and the rest."""
-    out, i, plain = bytearray(), 0, []
-    while i <= len(values):
-        n = 1
-        while i + n < len(values) and n < 127 and values[i + n] == values[i]:
-            n += 1
-        if plain and (i == len(values) or n >= 4 or len(plain) == 128):
-            out += bytes([len(plain), *plain])
-            plain = []
-        if i == len(values):
-            break
-        if n >= 4:
-            out += bytes([128 + n, values[i]])
-            i += n
-        else:
-            plain.append(values[i])
-            i += 1
-    return out
-
-
-data = bytearray(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (HEIGHT, WIDTH))
-for y in range(HEIGHT):
-    pixels = [rgbe(radiance(((x + 0.5) / WIDTH - 0.5) * 2 * math.pi,
-                            (0.5 - (y + 0.5) / HEIGHT) * math.pi)) for x in range(WIDTH)]
-    data += bytes([2, 2, WIDTH >> 8, WIDTH & 255])
-    for component in zip(*pixels):
-        data += run_lengths(component)
-(pathlib.Path(__file__).resolve().parent / "dusk.hdr").write_bytes(data)
+hdrfile.write("dusk.hdr", WIDTH, HEIGHT,
+              lambda x, y: radiance(((x + 0.5) / WIDTH - 0.5) * 2 * math.pi,
+                                    (0.5 - (y + 0.5) / HEIGHT) * math.pi))

@@ -8,7 +8,8 @@ brighter towards the horizon.  The sun is half a degree wide and as bright as
 makes it give the ground about twice the light that the sky gives.
 """
 import math
-import pathlib
+
+import hdrfile
 
 WIDTH, HEIGHT = 1024, 512
 SUN_AZIMUTH = math.radians(-52)  # from -Z towards +X
@@ -72,38 +73,4 @@ def radiance(x, y):
     return tuple(c + cover * s for c, s in zip(color, SUN))
 
 
-def rgbe(color):
-    """Three mantissas and the shared exponent of the largest."""
-    mantissa, exponent = math.frexp(max(color))
-    scale = mantissa * 256 / max(color)
-    return [min(255, round(c * scale)) for c in color] + [exponent + 128]
-
-
-def run_lengths(values):
-    """One component of a row: runs of 4 and more equal values, and the rest."""
-    out, i, plain = bytearray(), 0, []
-    while i <= len(values):
-        n = 1
-        while i + n < len(values) and n < 127 and values[i + n] == values[i]:
-            n += 1
-        if plain and (i == len(values) or n >= 4 or len(plain) == 128):
-            out += bytes([len(plain), *plain])
-            plain = []
-        if i == len(values):
-            break
-        if n >= 4:
-            out += bytes([128 + n, values[i]])
-            i += n
-        else:
-            plain.append(values[i])
-            i += 1
-    return out
-
-
-data = bytearray(b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y %d +X %d\n" % (HEIGHT, WIDTH))
-for y in range(HEIGHT):
-    pixels = [rgbe(radiance(x, y)) for x in range(WIDTH)]
-    data += bytes([2, 2, WIDTH >> 8, WIDTH & 255])
-    for component in zip(*pixels):
-        data += run_lengths(component)
-(pathlib.Path(__file__).resolve().parent / "sky.hdr").write_bytes(data)
+hdrfile.write("sky.hdr", WIDTH, HEIGHT, radiance)
