@@ -43,8 +43,12 @@ CHAPTER_7 := $(CHAPTER_6) ibl_level ibl_lobe ibl_wave ibl_source ibl_methods \
              ibl_cache ibl raster_env
 CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
 CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_naive film render
-CHAPTER_14 := $(CHAPTER_9) post view_state view_script view_paths view_window
-LIBRARY   := $(CHAPTER_14)
+CHAPTER_10 := $(CHAPTER_9) tracer
+CHAPTER_11 := $(CHAPTER_10)
+CHAPTER_12 := $(CHAPTER_11)
+CHAPTER_14 := $(CHAPTER_12) post view_state view_script view_paths view_window
+CHAPTER_15 := $(CHAPTER_14)
+LIBRARY   := $(CHAPTER_15)
 CHAPTERS  := 1 2 3 4 5 6 7 8 9 14 17
 # The command line, the only floor that prints and exits.
 COMMAND   := json tonemap progress option_id option_table option cmd_shared cmd_signals \

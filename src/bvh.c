@@ -159,9 +159,9 @@ static bool list_any(const void *tree, const ray *r) {
 }
 
 tracer bvh_tracer(const bvh *b) {
-  return (tracer){b, tree_closest, tree_any};
+  return (tracer){.tree = b, .closest = tree_closest, .any = tree_any};
 }
 
 tracer brute_tracer(const bvh *b) {
-  return (tracer){b, list_closest, list_any};
+  return (tracer){.tree = b, .closest = list_closest, .any = list_any};
 }

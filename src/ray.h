@@ -6,6 +6,7 @@
 #include "vec.h"
 
 #include <float.h>
+#include <stddef.h>
 #include <stdint.h>
 
 // The points o + t d with tmin <= t <= tmax.  d need not have unit length;
@@ -41,10 +42,14 @@ static inline vec3 ray_flush(vec3 d) {
 // Something that can be asked for hits: a list, a tree, a wider tree.  closest
 // returns false and leaves *h alone on a miss; of hits at equal t it gives the
 // lowest triangle number.  any says whether anything lies in [tmin, tmax].
+// The other two ask the same of n rays at once, for trees that gain by it, and
+// may be NULL: hits[i] is t = tmax and HIT_NONE where ray i misses.
 typedef struct tracer {
   const void *tree;
   bool (*closest)(const void *tree, const ray *r, hit *h);
   bool (*any)(const void *tree, const ray *r);
+  void (*closest_many)(const void *tree, const ray *rays, hit *hits, size_t n);
+  void (*any_many)(const void *tree, const ray *rays, bool *blocked, size_t n);
 } tracer;
 
 #endif

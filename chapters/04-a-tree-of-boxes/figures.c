@@ -761,7 +761,8 @@ static void count_leaks(const char *name, const mesh *m, const bvh *b,
          3 * m->triangle_count * (size_t)EDGE_RAYS);
   for (int k = 0; k < 5; k++) {
     wrong_tree w = {b, (slab_style)k};
-    tracer by = k < 4 ? (tracer){&w, wrong_closest, NULL} : bvh_tracer(b);
+    tracer by =
+        k < 4 ? (tracer){.tree = &w, .closest = wrong_closest} : bvh_tracer(b);
     printf(" %s %zu", names[k],
            draw_edges((image){0}, m, by, at_eye[0], at_eye[1]));
   }
