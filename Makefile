@@ -42,7 +42,7 @@ CHAPTER_6 := $(CHAPTER_5) microfacet dfg bsdf_rough raster_rough
 CHAPTER_7 := $(CHAPTER_6) ibl_level ibl_lobe ibl_wave ibl_source ibl_methods \
              ibl_cache ibl raster_env
 CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
-CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_naive film render
+CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_world vertex path_naive film render
 CHAPTER_10 := $(CHAPTER_9) tracer
 CHAPTER_11 := $(CHAPTER_10)
 CHAPTER_12 := $(CHAPTER_11)

@@ -2,6 +2,8 @@
 
 #include "path_naive.h"
 
+#include "vertex.h"
+
 // A path whose throughput falls below this plays roulette for it.
 #define ROULETTE_BELOW 0.25f
 
@@ -10,17 +12,9 @@
 enum { LOSSLESS_FROM = 4096 };
 #define LOSSLESS_SURVIVAL 0.999f
 
-// Reversible optics let no light into glass that cannot get out again, but
-// interpolated normals do: after this many reflections inside, one after the
-// other, it goes straight out.
-enum { TRAPPED_AFTER = 256 };
-
 // The most rays of a path.  Unreachable by the roulette above (e^-99), except
 // through sheets that let light straight through, which do not play.
 enum { PATH_MAX_RAYS = 100000 };
-
-// The most sheets a shadow ray looks through.
-enum { SHADOW_MAX_SHEETS = 1000 };
 
 // A path on its way: what it has gathered, and what the rest still counts.
 typedef struct walk {
@@ -32,81 +26,9 @@ typedef struct walk {
   int inside;  // reflections inside glass since the last other event
 } walk;
 
-// A hit seen from where the ray came from: unit wo, the two normals turned to
-// that side, and the frame about the normal n that scatters.
-typedef struct stop {
-  surface at;
-  vec3 wo, ng, ns;
-  vec3 n, t, b;
-} stop;
-
 static bool closest(const walk *k, const ray *r, hit *h) {
   k->stats->rays++;
   return k->world->tracer.closest(k->world->tracer.tree, r, h);
-}
-
-static vec3 to_local(const stop *s, vec3 w) {
-  return (vec3){vec3_dot(w, s->t), vec3_dot(w, s->b), vec3_dot(w, s->n)};
-}
-
-static vec3 to_world(const stop *s, vec3 w) {
-  vec3 v = vec3_scale(s->t, w.x);
-  return vec3_unit(vec3_mad(vec3_mad(v, w.y, s->b), w.z, s->n));
-}
-
-static stop stop_at(const walk *k, const hit *h) {
-  const scene *world = k->world->scene;
-  stop s = {.at = surface_at(world, h, k->ray.d)};
-  s.wo = vec3_unit(vec3_neg(k->ray.d));
-  s.ns = surface_mapped_normal(world, &s.at, h);
-  s.ng = s.at.ng;
-  if (!s.at.front) {
-    s.ng = vec3_neg(s.ng);
-    s.ns = vec3_neg(s.ns);
-  }
-  return s;
-}
-
-// The normal for b: mirrors and glass want one whose directions lie on the
-// right sides of the facet, others one that faces the viewer.
-static void stop_orient(stop *s, const bsdf *b) {
-  switch (b->kind) {
-  case BSDF_MIRROR: s->n = surface_bend(s->ns, s->ng, s->wo); break;
-  case BSDF_GLASS:
-    s->n = surface_bend_glass(s->ns, s->ng, s->wo, b->eta);
-    break;
-  case BSDF_LAMBERT:
-  case BSDF_BLINN_PHONG:
-  case BSDF_ROUGH: s->n = surface_face(s->ns, s->wo); break;
-  }
-  bsdf_basis(s->n, &s->t, &s->b);
-}
-
-// What one shadow ray is about: the direction to the light, the light on a
-// facing plane, and for a point light where it is.
-typedef struct light_ray {
-  bool is_point;
-  vec3 to, wi, power;
-} light_ray;
-
-static light_ray light_ray_of(const light *l, vec3 p) {
-  if (l->kind == LIGHT_DIR)
-    return (light_ray){.wi = vec3_unit(vec3_neg(l->at)), .power = l->power};
-  vec3 d = vec3_sub(l->at, p);
-  float r2 = vec3_dot(d, d);
-  vec3 power = r2 > 0 ? vec3_scale(l->power, 1 / r2) : vec3_all(0);
-  return (light_ray){true, l->at, vec3_unit(d), power};
-}
-
-static ray shadow_ray(const surface *from, const light_ray *l, bool smooth) {
-  if (l->is_point) return surface_ray_to(from, l->to, smooth);
-  return smooth ? surface_smooth_ray(from, l->wi) : surface_ray(from, l->wi);
-}
-
-static bool any_sheets(const scene *s) {
-  for (size_t i = 0; i < s->material_count; i++)
-    if (s->materials[i].passes) return true;
-  return false;
 }
 
 // The share of light that reaches the surface: 0 or 1, or what the sheets in
@@ -114,53 +36,36 @@ static bool any_sheets(const scene *s) {
 static float light_passes(const walk *k, const surface *from,
                           const light_ray *l) {
   const path_world *w = k->world;
-  ray r = shadow_ray(from, l, true);
+  ray r = light_ray_shadow(l, from, true);
   k->stats->rays++;
   if (!w->tracer.any(w->tracer.tree, &r)) return 1;
-  if (!any_sheets(w->scene)) return 0;
-  float share = 1;
-  hit h;
-  for (int i = 0; i < SHADOW_MAX_SHEETS && closest(k, &r, &h); i++) {
-    surface s = surface_at(w->scene, &h, r.d);
-    if (!matter_passes(&s)) return 0;
-    share *= 1 - matter_opacity(&s);
-    if (!(share > 0)) return 0;
-    r = shadow_ray(&s, l, false);
-  }
-  return share;
+  if (!scene_has_sheets(w->scene)) return 0;
+  return light_ray_through(l, w, from, k->stats);
 }
 
-// What the point and directional lights add at s.
-static void add_lights(walk *k, const stop *s, const bsdf *b) {
+// What the point and directional lights add at v.
+static void add_lights(walk *k, const vertex *v, const bsdf *b) {
   const scene *world = k->world->scene;
-  vec3 wo = to_local(s, s->wo);
+  vec3 wo = vertex_local(v, v->wo);
   for (size_t i = 0; i < world->light_count; i++) {
-    light_ray l = light_ray_of(&world->lights[i], s->at.p);
-    vec3 wi = to_local(s, l.wi);
+    light_ray l = light_ray_of(&world->lights[i], v->at.p);
+    vec3 wi = vertex_local(v, l.wi);
     if (!(wi.z > 0)) continue;
     vec3 f = vec3_scale(bsdf_eval_point(b, wo, wi), wi.z);
     vec3 lit = vec3_mul(k->throughput, vec3_mul(f, l.power));
     if (!(vec3_peak(lit) > 0)) continue;
-    k->sum = vec3_mad(k->sum, light_passes(k, &s->at, &l), lit);
+    k->sum = vec3_mad(k->sum, light_passes(k, &v->at, &l), lit);
   }
 }
 
 // Go on in a direction sampled from b; false where nothing is scattered.
-static bool scatter(walk *k, const stop *s, const bsdf *b) {
+static bool scatter(walk *k, const vertex *v, const bsdf *b) {
   float u = rng_next(k->random), u1 = rng_next(k->random);
   float u2 = rng_next(k->random);
   bsdf_sample d;
-  if (!bsdf_sample_wi(b, to_local(s, s->wo), u, u1, u2, &d)) return false;
-  vec3 wi = to_world(s, d.wi);
+  if (!bsdf_sample_wi(b, vertex_local(v, v->wo), u, u1, u2, &d)) return false;
   k->throughput = vec3_mul(k->throughput, d.weight);
-  bool held = b->kind == BSDF_GLASS && !s->at.front && !d.transmitted;
-  k->inside = held ? k->inside + 1 : 0;
-  if (k->inside > TRAPPED_AFTER && s->at.smooth)
-    k->ray = surface_ray(&s->at, k->ray.d);
-  else if (d.delta)
-    k->ray = surface_ray(&s->at, surface_keep_side(&s->at, wi, d.transmitted));
-  else
-    k->ray = surface_smooth_ray(&s->at, wi);
+  k->ray = vertex_leave(v, b, &d, k->ray.d, &k->inside);
   return vec3_peak(k->throughput) > 0;
 }
 
@@ -176,20 +81,16 @@ static bool survives(walk *k, int segment) {
 }
 
 // One bounce at the hit; false where the path ends.
-static bool bounce(walk *k, stop *s) {
-  float cos_o = fminf(fmaxf(vec3_dot(s->ns, s->wo), 0), 1);
-  float u = rng_next(k->random);
-  matter m = matter_choose(k->world->dfg, &s->at, cos_o, u);
+static bool bounce(walk *k, vertex *v) {
+  matter m = vertex_matter(v, k->world->dfg, rng_next(k->random));
   k->throughput = vec3_mul(k->throughput, m.weight);
-  if (!s->at.front && m.bsdf.kind == BSDF_GLASS) m.bsdf.eta = 1 / m.bsdf.eta;
-  stop_orient(s, &m.bsdf);
-  if (k->world->lights && !bsdf_is_delta(&m.bsdf)) add_lights(k, s, &m.bsdf);
-  return scatter(k, s, &m.bsdf);
+  if (k->world->lights && !bsdf_is_delta(&m.bsdf)) add_lights(k, v, &m.bsdf);
+  return scatter(k, v, &m.bsdf);
 }
 
 // Whether the ray goes straight through the surface, by chance 1 - opacity.
-static bool goes_through(walk *k, const stop *s) {
-  return matter_passes(&s->at) && rng_next(k->random) >= matter_opacity(&s->at);
+static bool goes_through(walk *k, const vertex *v) {
+  return matter_passes(&v->at) && rng_next(k->random) >= matter_opacity(&v->at);
 }
 
 vec3 path_naive_radiance(const path_world *w, ray r, rng *random,
@@ -202,19 +103,48 @@ vec3 path_naive_radiance(const path_world *w, ray r, rng *random,
       vec3 sky = env_radiance(&w->scene->env, vec3_unit(k.ray.d));
       return vec3_add(k.sum, vec3_mul(k.throughput, sky));
     }
-    stop s = stop_at(&k, &h);
-    if (goes_through(&k, &s)) {
-      k.ray = surface_ray(&s.at, k.ray.d);
+    vertex v = vertex_at(w->scene, &h, k.ray.d);
+    if (goes_through(&k, &v)) {
+      k.ray = surface_ray(&v.at, k.ray.d);
       continue;
     }
-    if (s.at.front) {
-      vec3 glow = matter_emission(&s.at);
+    if (v.at.front) {
+      vec3 glow = matter_emission(&v.at);
       k.sum = vec3_add(k.sum, vec3_mul(k.throughput, glow));
     }
     if (w->max_depth > 0 && segment >= w->max_depth) return k.sum;
-    if (!bounce(&k, &s) || !survives(&k, segment)) return k.sum;
+    if (!bounce(&k, &v) || !survives(&k, segment)) return k.sum;
     segment++;
   }
   stats->cut++;
   return k.sum;
+}
+
+// The first two numbers of a stream place the sample in its pixel.
+static vec2 naive_place(const void *self, uint64_t pixel, uint32_t sample) {
+  const path_naive *p = self;
+  rng random = rng_of(p->seed, pixel, sample);
+  float x = rng_next(&random), y = rng_next(&random);
+  return (vec2){x, y};
+}
+
+static void naive_radiance(const void *self, const path_start *starts, size_t n,
+                           vec3 *out, path_stats *stats, void *room) {
+  (void)room;
+  const path_naive *p = self;
+  for (size_t i = 0; i < n; i++) {
+    rng random = rng_of(p->seed, starts[i].pixel, starts[i].sample);
+    random.dimension = 2;
+    out[i] = path_naive_radiance(p->world, starts[i].ray, &random, stats);
+  }
+}
+
+static void *naive_room(const void *self, arena *mem) {
+  (void)self;
+  (void)mem;
+  return NULL;
+}
+
+integrator path_naive_integrator(const path_naive *p) {
+  return (integrator){p, naive_place, naive_room, naive_radiance};
 }

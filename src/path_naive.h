@@ -3,28 +3,21 @@
 #ifndef PATH_NAIVE_H
 #define PATH_NAIVE_H
 
-#include "matter.h"
+#include "path_world.h"
 #include "rng.h"
-
-// What a path walks through.
-typedef struct path_world {
-  const scene *scene;
-  tracer tracer;
-  bool lights;     // point and directional lights on
-  int max_depth;   // segments: 1 emission seen, 2 direct light; 0 roulette only
-  const dfg *dfg;  // matter_table of the scene
-} path_world;
-
-// What one path did.
-typedef struct path_stats {
-  uint64_t rays;  // closest and any
-  uint64_t cut;   // paths ended by the limit on their length: lost light
-} path_stats;
 
 // One sample of the radiance that arrives along -r.d at r.o.  Unbiased for any
 // max_depth; with max_depth 0 for the whole transport.  Emitters are found by
 // hitting them, point and directional lights by shadow rays.
 vec3 path_naive_radiance(const path_world *w, ray r, rng *random,
                          path_stats *stats);
+
+// The same as an integrator of a seed; both live while it is used.
+typedef struct path_naive {
+  const path_world *world;
+  uint64_t seed;
+} path_naive;
+
+integrator path_naive_integrator(const path_naive *p);
 
 #endif

@@ -21,13 +21,25 @@ enum { TILE = 16 };
 // The fewest samples a pixel after which the estimated error is believed.
 enum { ERROR_MIN_SPP = 16 };
 
-// What one worker counts, apart from its neighbour's cache line.
+// What one worker counts.
 typedef struct tally {
   path_stats paths;
   uint64_t samples, non_finite;
   uint64_t bad_sample, bad_pixel;  // the first dropped one, sample before pixel
-  char apart[80];
 } tally;
+
+// A worker: its counts, apart from its neighbour's cache line, and the samples
+// that it has taken up: where they start and which pixel of the window each
+// is for.
+typedef struct worker {
+  tally tally;
+  size_t count;
+  path_start *starts;
+  size_t *pixels;
+  vec3 *colors;
+  void *room;  // of the integrator
+  char apart[64];
+} worker;
 
 // The averages beside the radiance.
 typedef struct first_films {
@@ -47,7 +59,8 @@ typedef struct job {
   int begin, end;   // the samples of this pass
   atomic_int done;  // its finished tiles
   double start, last_progress, error;
-  tally *tallies;
+  integrator by;
+  worker *team;
   int workers;
 } job;
 
@@ -105,26 +118,39 @@ static void drop_sample(tally *t, uint64_t sample, uint64_t pixel) {
   t->bad_pixel = pixel;
 }
 
-// The sample of the given number of pixel (x, y) of the window.
-static void add_sample(job *j, int x, int y, int sample, tally *t) {
+// Take up the sample of the given number of pixel (x, y) of the window.
+static void start_sample(const job *j, int x, int y, int sample, worker *w) {
   size_t i = (size_t)y * (size_t)j->width + (size_t)x;
   x += j->x0, y += j->y0;
   uint64_t pixel = (uint64_t)y * (uint64_t)j->set->width + (uint64_t)x;
-  rng random = rng_of(j->set->seed, pixel, (uint64_t)sample);
-  float dx = rng_next(&random), dy = rng_next(&random);
-  ray r = camera_ray(j->view, (float)x + dx, (float)y + dy);
-  first_hit first = {0};
-  if (wants_first(j->set)) first = first_hit_of(j, &r, &t->paths);
-  vec3 color = j->set->shading == RENDER_RADIANCE
-                   ? path_naive_radiance(j->world, r, &random, &t->paths)
-                   : shade_first(j, &first);
-  t->samples++;
-  if (!vec3_finite(color)) {
-    drop_sample(t, (uint64_t)sample, pixel);
-    return;
+  vec2 at = j->by.place(j->by.self, pixel, (uint32_t)sample);
+  ray r = camera_ray(j->view, (float)x + at.x, (float)y + at.y);
+  w->starts[w->count] = (path_start){r, pixel, (uint32_t)sample};
+  w->pixels[w->count++] = i;
+}
+
+// Finish what the worker has taken up, in that order.
+static void end_samples(job *j, worker *w) {
+  tally *t = &w->tally;
+  bool firsts = wants_first(j->set);
+  if (j->set->shading == RENDER_RADIANCE)
+    j->by.radiance(j->by.self, w->starts, w->count, w->colors, &t->paths,
+                   w->room);
+  for (size_t k = 0; k < w->count; k++) {
+    const path_start *s = &w->starts[k];
+    first_hit first = {0};
+    if (firsts) first = first_hit_of(j, &s->ray, &t->paths);
+    vec3 color = j->set->shading == RENDER_RADIANCE ? w->colors[k]
+                                                    : shade_first(j, &first);
+    if (!vec3_finite(color)) {
+      drop_sample(t, s->sample, s->pixel);
+      continue;
+    }
+    film_add(&j->color, w->pixels[k], color);
+    if (firsts) add_first(&j->first, w->pixels[k], &first);
   }
-  film_add(&j->color, i, color);
-  add_first(&j->first, i, &first);
+  t->samples += w->count;
+  w->count = 0;
 }
 
 // The share of the whole that is done, by samples or by time.
@@ -152,16 +178,20 @@ static void tell_progress(job *j, double now) {
 }
 
 // Work of the pool: the samples of this pass in one tile.
-static void render_tile(void *context, size_t item, int worker) {
+static void render_tile(void *context, size_t item, int number) {
   job *j = context;
   int tx = (int)item % j->tiles_across * TILE;
   int ty = (int)item / j->tiles_across * TILE;
-  for (int y = ty; y < ty + TILE && y < j->height; y++)
-    for (int x = tx; x < tx + TILE && x < j->width; x++)
-      for (int s = j->begin; s < j->end; s++)
-        add_sample(j, x, y, s, &j->tallies[worker]);
+  worker *w = &j->team[number];
+  for (int s = j->begin; s < j->end; s++) {
+    for (int y = ty; y < ty + TILE && y < j->height; y++)
+      for (int x = tx; x < tx + TILE && x < j->width; x++)
+        start_sample(j, x, y, s, w);
+    if (w->count + TILE * TILE > INTEGRATOR_BATCH) end_samples(j, w);
+  }
+  end_samples(j, w);
   atomic_fetch_add(&j->done, 1);
-  if (worker != 0 || j->set->progress == NULL) return;
+  if (number != 0 || j->set->progress == NULL) return;
   double now = clock_seconds();
   if (now - j->last_progress >= PROGRESS_SECONDS) tell_progress(j, now);
 }
@@ -211,10 +241,21 @@ static void make_films(job *j, arena *mem) {
   if (s->aovs & RENDER_AOV_ALBEDO) j->first.albedo = film_new(mem, w, h, false);
 }
 
+static worker *hire_workers(const job *j, arena *mem) {
+  worker *team = ARENA_NEW(mem, worker, (size_t)j->workers);
+  for (int i = 0; i < j->workers; i++) {
+    team[i].starts = ARENA_NEW(mem, path_start, INTEGRATOR_BATCH);
+    team[i].pixels = ARENA_NEW(mem, size_t, INTEGRATOR_BATCH);
+    team[i].colors = ARENA_NEW(mem, vec3, INTEGRATOR_BATCH);
+    team[i].room = j->by.room(j->by.self, mem);
+  }
+  return team;
+}
+
 static void sum_tallies(render_result *out, const job *j) {
   tally all = {0};
   for (int i = 0; i < j->workers; i++) {
-    const tally *t = &j->tallies[i];
+    const tally *t = &j->team[i].tally;
     out->rays += t->paths.rays;
     out->cut += t->paths.cut;
     out->samples += t->samples;
@@ -290,8 +331,10 @@ void render_run(render_result *out, const path_world *world,
   j.farthest = farthest_depth(world->scene, view);
   j.last_progress = j.start;
   arena scratch = {0};
+  path_naive naive = {world, s->seed};
+  j.by = s->by != NULL ? *s->by : path_naive_integrator(&naive);
   j.workers = threads == NULL ? 1 : pool_threads(threads);
-  j.tallies = ARENA_NEW(&scratch, tally, (size_t)j.workers);
+  j.team = hire_workers(&j, &scratch);
   make_films(&j, &scratch);
   render_passes(&j, threads);
   *out = (render_result){.spp = j.end, .error = j.error};

@@ -56,6 +56,7 @@ typedef struct render_settings {
   int x0, y0, x1, y1;  // crop, half-open; all of the film when x1 is 0
   int spp;             // total
   uint64_t seed;
+  const integrator *by;  // NULL: path_naive with that seed
   render_shading shading;
   unsigned aovs;
   double deadline;  // CLOCK_MONOTONIC seconds to stop at; 0: none

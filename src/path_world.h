@@ -1,0 +1,49 @@
+// path_world.h — what paths walk through, and who walks them.
+
+#ifndef PATH_WORLD_H
+#define PATH_WORLD_H
+
+#include "matter.h"
+
+// What a path walks through.
+typedef struct path_world {
+  const scene *scene;
+  tracer tracer;
+  bool lights;     // point and directional lights on
+  int max_depth;   // segments: 1 emission seen, 2 direct light; 0 roulette only
+  const dfg *dfg;  // matter_table of the scene
+} path_world;
+
+// What paths did.
+typedef struct path_stats {
+  uint64_t rays;  // closest and any
+  uint64_t cut;   // paths ended by the limit on their length: lost light
+} path_stats;
+
+// Where a path begins: the camera ray of a sample of a pixel, numbered in the
+// full film.
+typedef struct path_start {
+  ray ray;
+  uint64_t pixel;
+  uint32_t sample;
+} path_start;
+
+// One way to find the radiance along camera rays.  All of its answers are
+// functions of the scene, its settings, pixel and sample, whatever else is
+// asked at the same time.
+typedef struct integrator {
+  const void *self;
+  // Where in its pixel a sample lies, each in [0, 1).
+  vec2 (*place)(const void *self, uint64_t pixel, uint32_t sample);
+  // Room for one worker's calls of radiance, in mem.
+  void *(*room)(const void *self, arena *mem);
+  // The radiance that arrives along each of n starts, INTEGRATOR_BATCH at most.
+  void (*radiance)(const void *self, const path_start *starts, size_t n,
+                   vec3 *out, path_stats *stats, void *room);
+} integrator;
+
+// A batch: enough rays for a tracer to work on several at once, few enough for
+// their state to stay in the cache.
+enum { INTEGRATOR_BATCH = 1024 };
+
+#endif
