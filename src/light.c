@@ -1,0 +1,189 @@
+// light.c
+
+#include "light.h"
+
+#include "light_emission.h"
+#include "rng.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// The share of choices that goes evenly to all kinds of light that there are:
+// nobody knows what is in between.
+#define EVEN_SHARE 0.2f
+
+static void add_far(light_set *out, const light *l) {
+  light_far f = {vec3_unit(vec3_neg(l->at)), l->power, light_mean(l->power)};
+  if (l->kind == LIGHT_DIR && f.power > 0) out->far[out->far_count++] = f;
+}
+
+static int by_triangle(const void *a, const void *b) {
+  uint32_t x = ((const light_name *)a)->triangle;
+  uint32_t y = ((const light_name *)b)->triangle;
+  return x < y ? -1 : x > y;
+}
+
+static void name_triangles(light_set *out, arena *mem) {
+  const light_tree *t = &out->near;
+  out->names = ARENA_NEW(mem, light_name, t->count);
+  for (uint32_t i = 0; i < t->count; i++)
+    if (!t->emitters[i].is_point)
+      out->names[out->name_count++] = (light_name){t->emitters[i].source, i};
+  qsort(out->names, out->name_count, sizeof *out->names, by_triangle);
+}
+
+void light_set_build(light_set *out, const scene *s, bool lights_on,
+                     bool env_on, arena *mem, pool *threads) {
+  *out = (light_set){.scene = s};
+  uint32_t count;
+  light_emitter *emitters = light_emitters(s, lights_on, &count);
+  light_tree_build(&out->near, emitters, count, mem);
+  array_free(emitters);
+  name_triangles(out, mem);
+  out->far = ARENA_NEW(mem, light_far, s->light_count);
+  for (size_t i = 0; lights_on && i < s->light_count; i++)
+    add_far(out, &s->lights[i]);
+  if (env_on) light_env_build(&out->env, &s->env, mem, threads);
+}
+
+bool light_set_any(const light_set *l) {
+  return l->near.count > 0 || l->far_count > 0 || l->env.irradiance > 0;
+}
+
+// The probabilities of the three kinds of light at a place.
+typedef struct shares {
+  float near, far, env;
+  float far_sum;  // of far_weight
+} shares;
+
+static float far_weight(const light_far *f, const light_place *at) {
+  return at->all_around ? f->power
+                        : f->power * fmaxf(vec3_dot(at->n, f->wi), 0);
+}
+
+static float share_of(float weight, float sum, int kinds) {
+  return weight > 0
+             ? (1 - EVEN_SHARE) * weight / sum + EVEN_SHARE / (float)kinds
+             : 0;
+}
+
+static shares shares_at(const light_set *l, const light_place *at) {
+  shares s = {.near = light_tree_bound(&l->near, at), .env = l->env.irradiance};
+  for (size_t i = 0; i < l->far_count; i++)
+    s.far_sum += far_weight(&l->far[i], at);
+  float sum = s.near + s.far_sum + s.env;
+  int kinds = (s.near > 0) + (s.far_sum > 0) + (s.env > 0);
+  if (kinds == 0 || !(sum < INFINITY)) return (shares){0};
+  s.near = share_of(s.near, sum, kinds);
+  s.far = share_of(s.far_sum, sum, kinds);
+  s.env = share_of(s.env, sum, kinds);
+  return s;
+}
+
+// u.x with digits that a float has not, so that each of a million lights gets
+// its share: they are drawn from the digits of all three.
+static double finer(vec3 u) {
+  uint32_t bits[3];
+  memcpy(bits, &u, sizeof bits);
+  uint64_t z = rng_mix(((uint64_t)bits[0] << 32 | bits[1]) +
+                       bits[2] * UINT64_C(0x9e3779b97f4a7c15));
+  return (double)u.x + (double)(z >> 32) * 0x1p-56;
+}
+
+static bool sample_near(const light_set *l, const light_place *at, double u1,
+                        vec3 u, light_sample *out) {
+  uint32_t i;
+  float share;
+  if (!light_tree_pick(&l->near, at, u1, &i, &share)) return false;
+  const light_emitter *e = &l->near.emitters[i];
+  if (e->is_point) {
+    vec3 d = vec3_sub(e->shape.a, at->p);
+    float d2 = vec3_dot(d, d);
+    vec3 power = vec3_scale(l->scene->lights[e->source].power, 1 / d2);
+    *out = (light_sample){vec3_unit(d), power, share, true, true, e->shape.a};
+    return d2 > 0 && vec3_finite(power);
+  }
+  light_point q;
+  if (!light_triangle_sample(&e->shape, at->p, u.y, u.z, &q)) return false;
+  vec3 glow = light_emission(l->scene, e->source, q.b, q.c);
+  *out = (light_sample){q.wi, glow, share * q.pdf, false, true, q.at};
+  return true;
+}
+
+static bool sample_far(const light_set *l, const light_place *at, float sum,
+                       double u, light_sample *out) {
+  double left = u * (double)sum;
+  for (size_t i = 0; i < l->far_count; i++) {
+    const light_far *f = &l->far[i];
+    float weight = far_weight(f, at);
+    if (!(weight > 0)) continue;
+    *out = (light_sample){.wi = f->wi,
+                          .radiance = f->irradiance,
+                          .pdf = weight / sum,
+                          .delta = true};
+    left -= (double)weight;
+    if (left < 0) break;
+  }
+  return out->pdf > 0;
+}
+
+static bool sample_env(const light_set *l, vec3 u, light_sample *out) {
+  *out = (light_sample){0};
+  if (!light_env_sample(&l->env, u.y, u.z, &out->wi, &out->pdf)) return false;
+  out->radiance = env_radiance(l->env.env, out->wi);
+  return true;
+}
+
+bool light_sample_at(const light_set *l, vec3 p, vec3 n, vec3 u,
+                     light_sample *out) {
+  light_place at = light_place_of(p, n);
+  shares s = shares_at(l, &at);
+  double choice = finer(u);
+  float share = s.near;
+  bool found;
+  *out = (light_sample){0};
+  if (choice < (double)s.near)
+    found = sample_near(l, &at, choice / (double)s.near, u, out);
+  else if (choice - (double)s.near < (double)s.far) {
+    share = s.far;
+    found = sample_far(l, &at, s.far_sum,
+                       (choice - (double)s.near) / (double)s.far, out);
+  } else {
+    share = s.env;
+    found = s.env > 0 && sample_env(l, u, out);
+  }
+  out->pdf *= share;
+  return found && out->pdf > 0;
+}
+
+// The emitter that a triangle is; false when it is none.
+static bool emitter_of(const light_set *l, uint32_t triangle,
+                       uint32_t *emitter) {
+  size_t lo = 0, hi = l->name_count;
+  while (lo < hi) {
+    size_t middle = (lo + hi) / 2;
+    if (l->names[middle].triangle < triangle)
+      lo = middle + 1;
+    else
+      hi = middle;
+  }
+  if (lo == l->name_count || l->names[lo].triangle != triangle) return false;
+  *emitter = l->names[lo].emitter;
+  return true;
+}
+
+float light_pdf_triangle(const light_set *l, vec3 p, vec3 n, uint32_t triangle,
+                         vec3 q) {
+  uint32_t i;
+  if (!emitter_of(l, triangle, &i)) return 0;
+  light_place at = light_place_of(p, n);
+  float pdf = light_triangle_pdf(&l->near.emitters[i].shape, p, q);
+  if (!(pdf > 0)) return 0;
+  return pdf * shares_at(l, &at).near * light_tree_share(&l->near, &at, i);
+}
+
+float light_pdf_env(const light_set *l, vec3 p, vec3 n, vec3 wi) {
+  if (!(l->env.irradiance > 0)) return 0;
+  light_place at = light_place_of(p, n);
+  return shares_at(l, &at).env * light_env_pdf(&l->env, wi);
+}

@@ -1,0 +1,68 @@
+// light.h — all the lights of a scene: where to look for light from a point.
+
+#ifndef LIGHT_H
+#define LIGHT_H
+
+#include "light_env.h"
+#include "light_tree.h"
+#include "scene.h"
+
+// A directional light.
+typedef struct light_far {
+  vec3 wi, irradiance;  // towards it; on a facing plane
+  float power;          // mean of R, G, B
+} light_far;
+
+// An emitter by the triangle of the mesh that it is.
+typedef struct light_name {
+  uint32_t triangle, emitter;
+} light_name;
+
+typedef struct light_set {
+  const scene *scene;
+  light_env env;
+  light_far *far;
+  size_t far_count;
+  light_tree near;    // shining triangles and point lights
+  light_name *names;  // of the triangles, rising
+  size_t name_count;
+} light_set;
+
+// What shines in a scene, which must stay: triangles with emission, always;
+// point and directional lights where lights_on; what of the environment is
+// worth looking for, where env_on.
+void light_set_build(light_set *out, const scene *s, bool lights_on,
+                     bool env_on, arena *mem, pool *threads);
+
+// Whether there is anything to sample at all.
+bool light_set_any(const light_set *l);
+
+// One direction in which there may be light.  Where nothing is in between,
+// f(wo, wi) cos radiance / pdf estimates the light from all lights that
+// light_pdf_* knows of, and from the deltas.
+typedef struct light_sample {
+  vec3 wi;        // unit
+  vec3 radiance;  // along -wi; of a delta the irradiance on a facing plane
+  float pdf;      // per steradian; of a delta the probability to choose it
+  bool delta;     // a point or a direction: no scattered ray finds it
+  bool has_end;   // the light is at `to`; else it comes from everywhere
+  vec3 to;
+} light_sample;
+
+// Choose by u, three numbers of [0, 1): light, then direction.  n is the
+// normal of what is lit at p from the side of n only; zero when it lets light
+// through.  A light that is only partly opaque shines as much less.  False
+// when no light was found.
+bool light_sample_at(const light_set *l, vec3 p, vec3 n, vec3 u,
+                     light_sample *out);
+
+// The density with which light_sample_at, for the same p and n, gives the
+// direction to the point q of a triangle, by that triangle; 0 when it does not
+// shine this way, or leaves it to scattered rays to find that out.
+float light_pdf_triangle(const light_set *l, vec3 p, vec3 n, uint32_t triangle,
+                         vec3 q);
+
+// The same for the environment in direction wi.
+float light_pdf_env(const light_set *l, vec3 p, vec3 n, vec3 wi);
+
+#endif

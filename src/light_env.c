@@ -1,0 +1,190 @@
+// light_env.c
+
+#include "light_env.h"
+
+#include "num.h"
+
+// The texels that the built-in sky is tabulated with.
+enum { SKY_WIDTH = 128, SKY_HEIGHT = 64 };
+
+// The four texels around a cell, by what the table holds of each.
+typedef struct cell {
+  float a00, a01, a10, a11;  // row above, row below; left, right
+} cell;
+
+static int clamped(int i, int n) {
+  return i < 0 ? 0 : i < n ? i : n - 1;
+}
+
+static float mean_of(vec3 c) {
+  return c.x / 3 + c.y / 3 + c.z / 3;
+}
+
+static float texel(const light_env *l, int x, int y) {
+  const image *m = &l->map;
+  float v = mean_of(m->pixels[(size_t)y * (size_t)m->width + (size_t)x]);
+  return v > l->floor ? (v - l->floor) * l->unit * l->row_sin[y] : 0;
+}
+
+// Row j of cells lies between the texel rows j - 1 and j, column i likewise.
+static cell cell_at(const light_env *l, int i, int j) {
+  int left = i > 0 ? i - 1 : l->map.width - 1;
+  int above = clamped(j - 1, l->map.height), below = clamped(j, l->map.height);
+  return (cell){texel(l, left, above), texel(l, i, above),
+                texel(l, left, below), texel(l, i, below)};
+}
+
+static float cell_mean(const cell *c) {
+  return 0.25f * (c->a00 + c->a01 + c->a10 + c->a11);
+}
+
+static float cell_height(const light_env *l, int j) {
+  return j == 0 || j == l->map.height ? 0.5f : 1;
+}
+
+// The built-in sky as a map, unrotated.
+static image sky_map(const env *e, arena *mem) {
+  image map = image_new(mem, SKY_WIDTH, SKY_HEIGHT);
+  env still = *e;
+  still.rotate = 0;
+  still.scale = 1;
+  for (int y = 0; y < SKY_HEIGHT; y++)
+    for (int x = 0; x < SKY_WIDTH; x++) {
+      vec2 uv = {((float)x + 0.5f) / SKY_WIDTH, ((float)y + 0.5f) / SKY_HEIGHT};
+      map.pixels[y * SKY_WIDTH + x] = env_radiance(&still, env_direction(uv));
+    }
+  return map;
+}
+
+// The mean over the sphere, and the peak.
+static void measure(light_env *l) {
+  double sum = 0, weight = 0;
+  float peak = 0;
+  for (int y = 0; y < l->map.height; y++) {
+    const vec3 *row = l->map.pixels + (size_t)y * (size_t)l->map.width;
+    double of_row = 0;
+    for (int x = 0; x < l->map.width; x++) {
+      of_row += (double)mean_of(row[x]);
+      peak = fmaxf(peak, mean_of(row[x]));
+    }
+    sum += of_row * (double)l->row_sin[y];
+    weight += (double)l->row_sin[y] * l->map.width;
+  }
+  l->floor = (float)(sum / weight);
+  l->unit = 1 / (peak - l->floor);
+}
+
+// Work of the pool: the columns of one row of cells.
+typedef struct row_job {
+  light_env *light;
+  float *values, *sums;
+} row_job;
+
+static void weigh_row(void *context, size_t item, int worker) {
+  (void)worker;
+  row_job *job = context;
+  light_env *l = job->light;
+  int j = (int)item, w = l->map.width;
+  float *values = job->values + item * (size_t)w;
+  for (int i = 0; i < w; i++) {
+    cell c = cell_at(l, i, j);
+    values[i] = cell_mean(&c);
+  }
+  double sum;
+  pick_weigh(&l->columns[j], values, &sum);
+  job->sums[j] = (float)sum * cell_height(l, j);
+}
+
+static void weigh(light_env *l, arena *mem, pool *threads) {
+  size_t rows = (size_t)l->map.height + 1, width = (size_t)l->map.width;
+  arena scratch = {0};
+  row_job job = {l, ARENA_NEW(&scratch, float, rows *width),
+                 ARENA_NEW(&scratch, float, rows)};
+  l->columns = ARENA_NEW(mem, pick, rows);
+  l->rows = pick_new(mem, (uint32_t)rows);
+  for (size_t j = 0; j < rows; j++)
+    l->columns[j] = pick_new(mem, (uint32_t)width);
+  pool_run(threads, rows, weigh_row, &job);
+  double sum;
+  pick_weigh(&l->rows, job.sums, &sum);
+  double cells = (double)width * (double)l->map.height;
+  double mean = sum / cells / (double)l->unit;  // of value times sine
+  l->irradiance = (float)(mean * (double)(PI * PI / 2)) * l->env->scale;
+  arena_free(&scratch);
+}
+
+void light_env_build(light_env *out, const env *e, arena *mem, pool *threads) {
+  *out = (light_env){.env = e};
+  if (e->kind != ENV_SKY && e->kind != ENV_MAP) return;
+  if (e->kind == ENV_MAP && e->map.pixels == NULL) return;
+  if (!(e->scale > 0)) return;
+  out->map = e->kind == ENV_SKY ? sky_map(e, mem) : e->map;
+  int h = out->map.height;
+  out->row_sin = ARENA_NEW(mem, float, (size_t)h);
+  for (int y = 0; y < h; y++)
+    out->row_sin[y] = num_circle(((float)y + 0.5f) / (float)h * 0.5f).y;
+  measure(out);
+  if (isfinite(out->unit) && out->unit > 0) weigh(out, mem, threads);
+}
+
+// Where in [0, 1) a density falls that runs from a to b; not both 0.
+static float sample_slope(float a, float b, float u) {
+  float t = u * (a + b) / (a + sqrtf(a * a * (1 - u) + b * b * u));
+  return fminf(t, 0x1.fffffep-1f);
+}
+
+// Density per steradian at (x, y) of a cell, where its probability is known.
+static float cell_pdf(const light_env *l, const cell *c, vec2 at, float share) {
+  float top = c->a00 * (1 - at.x) + c->a01 * at.x;
+  float low = c->a10 * (1 - at.x) + c->a11 * at.x;
+  float value = top * (1 - at.y) + low * at.y, mean = cell_mean(c);
+  float cells = (float)l->map.width * (float)l->map.height;
+  return mean > 0 ? share * cells * value / mean : 0;
+}
+
+// From a density over the unit square of the map: its height is pi radians,
+// its width 2 pi sin.
+static float per_steradian(float pdf, float v) {
+  float sine = num_circle(0.5f * v).y;
+  return sine > 0 ? pdf / (2 * PI * PI * sine) : 0;
+}
+
+bool light_env_sample(const light_env *l, float u1, float u2, vec3 *wi,
+                      float *pdf) {
+  if (!(l->irradiance > 0)) return false;
+  float share_y, share_x;
+  int j = (int)pick_at(&l->rows, &u2, &share_y);
+  int i = (int)pick_at(&l->columns[j], &u1, &share_x);
+  cell c = cell_at(l, i, j);
+  if (!(cell_mean(&c) > 0)) return false;
+  vec2 at;
+  at.y = sample_slope(c.a00 + c.a01, c.a10 + c.a11, u2);
+  at.x = sample_slope(c.a00 * (1 - at.y) + c.a10 * at.y,
+                      c.a01 * (1 - at.y) + c.a11 * at.y, u1);
+  float top = j > 0 ? (float)j - 0.5f : 0, high = cell_height(l, j);
+  float u = ((float)i - 0.5f + at.x) / (float)l->map.width - l->env->rotate;
+  float v = (top + high * at.y) / (float)l->map.height;
+  *wi = env_direction((vec2){u - floorf(u), v});
+  float of_square = cell_pdf(l, &c, at, share_x * share_y / high);
+  *pdf = per_steradian(of_square, v);
+  return *pdf > 0 && isfinite(*pdf);
+}
+
+float light_env_pdf(const light_env *l, vec3 wi) {
+  if (!(l->irradiance > 0) || !vec3_finite(wi)) return 0;
+  vec2 uv = env_uv(wi);
+  float u = uv.x + l->env->rotate;
+  float x = (u - floorf(u)) * (float)l->map.width + 0.5f;
+  float y = uv.y * (float)l->map.height + 0.5f;
+  int i = (int)x, j = clamped((int)y, l->map.height + 1);
+  vec2 at = {x - (float)i, y - (float)j};
+  if (i >= l->map.width) i = 0;
+  float high = cell_height(l, j);
+  if (j == 0) at.y = 2 * at.y - 1;
+  if (j == l->map.height) at.y = fminf(2 * at.y, 1);
+  cell c = cell_at(l, i, j);
+  float share = pick_share(&l->columns[j], (uint32_t)i) *
+                pick_share(&l->rows, (uint32_t)j) / high;
+  float pdf = per_steradian(cell_pdf(l, &c, at, share), uv.y);
+  return isfinite(pdf) ? pdf : 0;
+}

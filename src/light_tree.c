@@ -1,0 +1,80 @@
+// light_tree.c — going down, each child is as likely as it is important.
+
+#include "light_tree.h"
+
+// The importances of the emitters of a leaf, and their sum.
+static float leaf_bounds(const light_tree *t, const light_node *leaf,
+                         const light_place *at, float each[LIGHT_LEAF]) {
+  float sum = 0;
+  for (uint32_t i = 0; i < leaf->count; i++) {
+    each[i] = light_bound_emitter(&t->emitters[leaf->first + i], at);
+    sum += each[i];
+  }
+  return sum;
+}
+
+float light_tree_bound(const light_tree *t, const light_place *at) {
+  if (t->count == 0) return 0;
+  float each[LIGHT_LEAF];
+  const light_node *root = &t->nodes[0];
+  if (root->count > 0) return leaf_bounds(t, root, at, each);
+  return light_bound_group(&t->nodes[root->first].group, at) +
+         light_bound_group(&t->nodes[root->first + 1].group, at);
+}
+
+// One of n by weights whose sum is given; *u becomes uniform again and *share
+// is multiplied by its probability.
+static uint32_t choose(const float *weights, uint32_t n, float sum, double *u,
+                       float *share) {
+  double at = *u * (double)sum;
+  uint32_t i = 0, last = 0;
+  for (; i < n; i++) {
+    if (!(weights[i] > 0)) continue;
+    last = i;
+    if (at < (double)weights[i]) break;
+    at -= (double)weights[i];
+  }
+  double rest = at / (double)weights[last];
+  *u = i == n ? 0.5 : rest;
+  *share *= weights[last] / sum;
+  return last;
+}
+
+bool light_tree_pick(const light_tree *t, const light_place *at, double u,
+                     uint32_t *emitter, float *share) {
+  if (t->count == 0) return false;
+  const light_node *k = &t->nodes[0];
+  float weights[LIGHT_LEAF], sum;
+  *share = 1;
+  while (k->count == 0) {
+    const light_node *child = &t->nodes[k->first];
+    weights[0] = light_bound_group(&child[0].group, at);
+    weights[1] = light_bound_group(&child[1].group, at);
+    sum = weights[0] + weights[1];
+    if (!(sum > 0 && sum < INFINITY)) return false;
+    k = &child[choose(weights, 2, sum, &u, share)];
+  }
+  sum = leaf_bounds(t, k, at, weights);
+  if (!(sum > 0 && sum < INFINITY)) return false;
+  *emitter = k->first + choose(weights, k->count, sum, &u, share);
+  return *share > 0;
+}
+
+// From the leaf up: what the way down did.
+float light_tree_share(const light_tree *t, const light_place *at,
+                       uint32_t emitter) {
+  uint32_t node = t->leaf_of[emitter];
+  const light_node *leaf = &t->nodes[node];
+  float each[LIGHT_LEAF], sum = leaf_bounds(t, leaf, at, each);
+  if (!(sum > 0 && sum < INFINITY)) return 0;
+  float share = each[emitter - leaf->first] / sum;
+  while (node != 0 && share > 0) {
+    uint32_t left = t->nodes[t->nodes[node].parent].first;
+    float a = light_bound_group(&t->nodes[left].group, at);
+    float b = light_bound_group(&t->nodes[left + 1].group, at);
+    if (!(a + b > 0 && a + b < INFINITY)) return 0;
+    share *= (node == left ? a : b) / (a + b);
+    node = t->nodes[node].parent;
+  }
+  return share;
+}

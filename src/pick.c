@@ -1,0 +1,67 @@
+// pick.c
+
+#include "pick.h"
+
+// Numbers that share an entry of the guide, on average.
+enum { PICK_STRIDE = 4 };
+
+pick pick_new(arena *mem, uint32_t n) {
+  return (pick){ARENA_NEW(mem, uint32_t, (size_t)n + 1),
+                ARENA_NEW(mem, uint32_t, (size_t)n / PICK_STRIDE + 2), n};
+}
+
+static uint32_t entries(const pick *p) {
+  return p->n / PICK_STRIDE + 1;
+}
+
+// The entry of the guide that a unit belongs to, rising with it.
+static uint32_t entry_of(const pick *p, uint32_t unit) {
+  return (uint32_t)((uint64_t)unit * entries(p) / PICK_UNITS);
+}
+
+// For each entry the number that the first unit of it picks.
+static void make_guide(pick *p) {
+  uint32_t n = entries(p), i = 0;
+  for (uint32_t e = 0; e < n; e++) {
+    uint64_t unit = ((uint64_t)e * PICK_UNITS + n - 1) / n;
+    while (i + 1 < p->n && p->upto[i + 1] <= unit)
+      i++;
+    p->guide[e] = i;
+  }
+  p->guide[n] = p->n - 1;
+}
+
+void pick_weigh(pick *p, const float *weights, double *sum) {
+  double total = 0, below = 0;
+  for (uint32_t i = 0; i < p->n; i++)
+    total += (double)weights[i];
+  *sum = total;
+  double scale = total > 0 ? PICK_UNITS / total : 0;
+  for (uint32_t i = 0; i < p->n; i++) {
+    below += (double)weights[i];
+    p->upto[i + 1] = (uint32_t)(below * scale + 0.5);
+  }
+  make_guide(p);
+}
+
+uint32_t pick_at(const pick *p, float *u, float *share) {
+  float at = *u * (float)PICK_UNITS;
+  uint32_t unit = (uint32_t)at, e = entry_of(p, unit);
+  uint32_t lo = p->guide[e], hi = p->guide[e + 1];
+  while (lo < hi) {
+    uint32_t middle = (lo + hi) / 2;
+    if (p->upto[middle + 1] > unit)
+      hi = middle;
+    else
+      lo = middle + 1;
+  }
+  float units = (float)(p->upto[lo + 1] - p->upto[lo]);
+  float rest = (at - (float)p->upto[lo]) / units;
+  *u = rest < 0x1.fffffep-1f ? rest : 0x1.fffffep-1f;
+  *share = units / (float)PICK_UNITS;
+  return lo;
+}
+
+float pick_share(const pick *p, uint32_t i) {
+  return (float)(p->upto[i + 1] - p->upto[i]) / (float)PICK_UNITS;
+}

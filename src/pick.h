@@ -1,0 +1,35 @@
+// pick.h — one of many, with given probabilities, by one uniform number.
+
+#ifndef PICK_H
+#define PICK_H
+
+#include "arena.h"
+
+#include <stdint.h>
+
+// Probabilities in units of 2^-24, the distance of the uniform numbers of
+// rng.h: so each is exactly the share of numbers that pick it.
+enum { PICK_UNITS = 1 << 24 };
+
+// Number i is picked by the units from upto[i] to upto[i + 1].  guide cuts the
+// search short: the first number to look at, by quarters of n.
+typedef struct pick {
+  uint32_t *upto, *guide;
+  uint32_t n;
+} pick;
+
+// Room for n <= PICK_UNITS numbers.
+pick pick_new(arena *mem, uint32_t n);
+
+// Probabilities in proportion to weights >= 0, rounded; *scale is set to one
+// over their sum, 0 when there is nothing to pick.
+void pick_weigh(pick *p, const float *weights, double *sum);
+
+// The number that u in [0, 1) picks, of probability *share > 0; *u becomes
+// where in its share u was, again in [0, 1).
+uint32_t pick_at(const pick *p, float *u, float *share);
+
+// The probability of number i.
+float pick_share(const pick *p, uint32_t i);
+
+#endif
