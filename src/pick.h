@@ -21,8 +21,8 @@ typedef struct pick {
 // Room for n <= PICK_UNITS numbers.
 pick pick_new(arena *mem, uint32_t n);
 
-// Probabilities in proportion to weights >= 0, rounded; *scale is set to one
-// over their sum, 0 when there is nothing to pick.
+// Probabilities in proportion to n weights >= 0, rounded.  *sum is their sum;
+// where that is 0 nothing must be picked.
 void pick_weigh(pick *p, const float *weights, double *sum);
 
 // The number that u in [0, 1) picks, of probability *share > 0; *u becomes
