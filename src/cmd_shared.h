@@ -57,6 +57,7 @@ int cmd_compare(const options *o);
 int cmd_bench_load(const options *o);
 int cmd_bench_rays(const options *o);
 int cmd_bench_raster(const options *o);
+int cmd_bench_error(const options *o);
 int cmd_ibl(const options *o);
 int cmd_bench_ibl(const options *o);
 int cmd_help(const options *o);

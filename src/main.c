@@ -23,6 +23,7 @@ static int run_command(const options *o) {
   case CMD_BENCH_LOAD: return cmd_bench_load(o);
   case CMD_BENCH_RAYS: return cmd_bench_rays(o);
   case CMD_BENCH_RASTER: return cmd_bench_raster(o);
+  case CMD_BENCH_ERROR: return cmd_bench_error(o);
   case CMD_IBL: return cmd_ibl(o);
   case CMD_BENCH_IBL: return cmd_bench_ibl(o);
   default: return cmd_help(o);

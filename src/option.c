@@ -127,6 +127,30 @@ static bool find_sizes(option_value *v, const option *o, error *err) {
   return ok;
 }
 
+// Whole numbers separated by commas: all are read, the last one stays.
+static bool find_wholes(option_value *v, const option *o, error *err) {
+  span rest = span_of(v->text);
+  for (bool more = true; more;) {
+    more = memchr(rest.at, ',', rest.length) != NULL;
+    bool good = span_int(split_off(&rest, ','), &v->whole[0]) &&
+                (double)v->whole[0] >= o->low && (double)v->whole[0] <= o->high;
+    if (!good) return bad_number(v, o, err);
+  }
+  return true;
+}
+
+bool option_whole(const option_value *v, unsigned i, int *number) {
+  span rest = span_of(v->text), one = {0};
+  for (unsigned k = 0; k <= i; k++) {
+    if (rest.length == 0) return false;
+    one = split_off(&rest, ',');
+  }
+  long long n;
+  if (!span_int(one, &n)) return false;
+  *number = (int)n;
+  return true;
+}
+
 bool option_size(const option_value *v, unsigned i, int *width, int *height) {
   span rest = span_of(v->text), size = {0};
   for (unsigned k = 0; k <= i; k++) {
@@ -153,6 +177,7 @@ static bool read_value(option_value *v, const option *o, error *err) {
   case OPTION_SIZE: return find_numbers(v, o, 2, err);
   case OPTION_SIZES: return find_sizes(v, o, err);
   case OPTION_TRIPLE: return find_numbers(v, o, 3, err);
+  case OPTION_WHOLES: return find_wholes(v, o, err);
   case OPTION_BOX: return find_numbers(v, o, 4, err);
   }
   return true;
@@ -271,7 +296,8 @@ static void unknown_command(const char *first, const char *both, error *err) {
     fail(err, "%s: not in this version of facet", said);
   else if (half)
     fail(err,
-         "bench what? There are 'bench load', 'bench rays' and 'bench raster'");
+         "bench what? There are 'bench error', 'bench load', 'bench rays', "
+         "'bench raster' and 'bench ibl'");
   else if (dot != NULL && (!strcmp(dot, ".obj") || !strcmp(dot, ".scene")))
     fail(err, "unknown command '%s'; to make a picture: facet render %s", said,
          said);

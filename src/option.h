@@ -41,6 +41,10 @@ const command *command_of(int argc, char **argv, int *words, error *err);
 // argument lists; false when there are not so many.
 bool option_word(const option *o, unsigned i, char *text, size_t size);
 
+// The i-th of the numbers that the argument of OPTION_WHOLES lists; false when
+// there are not so many.
+bool option_whole(const option_value *v, unsigned i, int *number);
+
 // The i-th of the sizes that the argument of OPTION_SIZES lists; false when
 // there are not so many.
 bool option_size(const option_value *v, unsigned i, int *width, int *height);

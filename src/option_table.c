@@ -4,8 +4,9 @@
 
 #include <stddef.h>
 
-// The commands that draw a scene.
-enum { DRAWS = CMD_RENDER | CMD_VIEW | CMD_BENCH_RASTER };
+// The commands that make pictures of a scene, and those that draw it at all.
+enum { SHOWS = CMD_RENDER | CMD_BENCH_ERROR };
+enum { DRAWS = SHOWS | CMD_VIEW | CMD_BENCH_RASTER };
 
 const command command_table[] = {
     {"render", CMD_RENDER, "SCENE", 1, 1, "make one picture",
@@ -55,6 +56,23 @@ const command command_table[] = {
      "another, until the last is finished.  Then the cost of each pass of a "
      "frame, the median of --repeat: shadow maps, surfaces, sky, and what it "
      "takes to read the picture back."},
+    {"bench error", CMD_BENCH_ERROR, "SCENE", 1, 1,
+     "measure run time against error",
+     "Each method of --methods makes pictures, the path tracer's at every "
+     "number of samples of --spp, and each picture is compared with a "
+     "reference: of --reference, or the path engine's own with another seed "
+     "and 32 times the largest number of samples.  Every picture is rendered "
+     "by a facet started for it, as a user would; 'process' is the time from "
+     "its start to its end, 'render' what it spent on samples or drawing.  "
+     "relMSE is mean((x - ref)^2 / (ref^2 + 0.01)), 'error' its square root, "
+     "'estimate' what facet said of that error without knowing the reference.  "
+     "The K runs of --repeat have seeds of their own: times are medians, "
+     "squared errors means.  -o draws error against time as PLOT.png or "
+     "PLOT.svg.\n"
+     "Methods: raster and path as they are; flat (the base colours), phong and "
+     "pbr (every material by that one model) in the raster engine; naive, "
+     "chapter 9's paths; adaptive, which renders with --error down to what "
+     "path estimated at each number of samples."},
     {"ibl", CMD_IBL, "ENV", 1, 1, "prepare light from an environment",
      "ENV is an equirectangular picture, R,G,B, or sky.  With -o, writes "
      "irradiance.pfm, radiance-R.pfm for each roughness R, dfg.pfm (what a "
@@ -74,19 +92,19 @@ const command command_table[] = {
 
 const option option_table[OPTION_COUNT] = {
     [OPT_OUTPUT] =
-        {"output", 'o', CMD_RENDER | CMD_IBL, OPTION_TEXT, "FILE",
+        {"output", 'o', SHOWS | CMD_IBL, OPTION_TEXT, "FILE",
          .help =
              "the picture to write, by suffix .png, .pfm or .hdr; - is "
              "standard output and needs --format "
              "(default: SCENE.png in the current folder).  Of ibl: a folder, "
-             "made when it is not there"},
+             "made when it is not there.  Of bench error: the plot"},
     [OPT_FORMAT] = {"format", 0, CMD_RENDER, OPTION_WORD, "png|pfm|hdr",
                     .help = "file format, whatever the suffix"},
     [OPT_DEPTH] = {"depth", 0, CMD_RENDER, OPTION_WORD, "8|16", "8",
                    .help = "bits a channel of a PNG"},
     [OPT_RESOLUTION] =
-        {"resolution", 'r', CMD_RENDER | CMD_VIEW, OPTION_SIZE, "WxH",
-         "1280x720", 1, 65535,
+        {"resolution", 'r', SHOWS | CMD_VIEW, OPTION_SIZE, "WxH", "1280x720", 1,
+         65535,
          .help = "width and height in pixels; a scene file's film line "
                  "comes before the default"},
     [OPT_RESOLUTIONS] = {"resolution", 'r', CMD_BENCH_RASTER, OPTION_SIZES,
@@ -94,7 +112,7 @@ const option option_table[OPTION_COUNT] = {
                          .help =
                              "widths and heights in pixels, split at commas"},
     [OPT_CROP] =
-        {"crop", 0, CMD_RENDER, OPTION_BOX, "X0,Y0,X1,Y1", NULL, 0, 65535,
+        {"crop", 0, SHOWS, OPTION_BOX, "X0,Y0,X1,Y1", NULL, 0, 65535,
          .help = "render only these pixels of the full picture, half-open, "
                  "from the top left"},
     [OPT_AOV] =
@@ -162,25 +180,27 @@ const option option_table[OPTION_COUNT] = {
     [OPT_SPP] = {"spp", 0, CMD_RENDER, OPTION_WHOLE, "N", "64", 1, 1 << 24,
                  .help = "samples a pixel; not limited where --time or --error "
                          "is given without it"},
+    [OPT_SPPS] = {"spp", 0, CMD_BENCH_ERROR, OPTION_WHOLES, "N,...",
+                  "1,4,16,64", 1, 1 << 19, .help = "samples a pixel, in turn"},
     [OPT_TIME] = {"time", 0, CMD_RENDER, OPTION_NUMBER, "SECONDS", NULL, 0, 1e9,
                   true, "stop in time to be done this long after the start"},
     [OPT_ERROR] = {"error", 0, CMD_RENDER, OPTION_NUMBER, "REL", NULL, 0, 1e9,
                    true,
                    "stop when the estimated relative error of the "
                    "picture is below this"},
-    [OPT_MAX_DEPTH] = {"max-depth", 0, CMD_RENDER | CMD_VIEW, OPTION_WHOLE, "N",
-                       "0", 0, 1000000,
+    [OPT_MAX_DEPTH] = {"max-depth", 0, SHOWS | CMD_VIEW, OPTION_WHOLE, "N", "0",
+                       0, 1000000,
                        .help =
                            "segments of a path: 1 sees lights, 2 adds direct "
                            "light; 0: no limit, paths end by chance"},
-    [OPT_SEED] = {"seed", 0, CMD_RENDER | CMD_VIEW | CMD_BENCH_RAYS,
-                  OPTION_WHOLE, "N", "0", 0, 9007199254740992.0,
+    [OPT_SEED] = {"seed", 0, SHOWS | CMD_VIEW | CMD_BENCH_RAYS, OPTION_WHOLE,
+                  "N", "0", 0, 9007199254740992.0,
                   .help = "another seed, other noise"},
-    [OPT_INTEGRATOR] = {"integrator", 0, CMD_RENDER, OPTION_WORD, "auto|naive",
+    [OPT_INTEGRATOR] = {"integrator", 0, SHOWS, OPTION_WORD, "auto|naive",
                         "auto", .help = "how paths look for light"},
-    [OPT_SAMPLER] = {"sampler", 0, CMD_RENDER, OPTION_WORD, "random", "random",
+    [OPT_SAMPLER] = {"sampler", 0, SHOWS, OPTION_WORD, "random", "random",
                      .help = "where random numbers come from"},
-    [OPT_BVH] = {"bvh", 0, CMD_RENDER | CMD_BENCH_RAYS, OPTION_WORD,
+    [OPT_BVH] = {"bvh", 0, SHOWS | CMD_BENCH_RAYS, OPTION_WORD,
                  "auto|binary|brute", "auto",
                  .help = "how triangles are found; brute tests every one"},
     [OPT_EXPOSURE] = {"exposure", 0, CMD_RENDER | CMD_VIEW, OPTION_NUMBER,
@@ -231,9 +251,16 @@ const option option_table[OPTION_COUNT] = {
                         CMD_BENCH_IBL,
                     OPTION_WHOLE, "K", "5", 1, 1000,
                     .help = "runs; the median counts"},
+    [OPT_RUNS] = {"repeat", 0, CMD_BENCH_ERROR, OPTION_WHOLE, "K", "1", 1, 1000,
+                  .help = "pictures a point, each with a seed of its own"},
+    [OPT_METHODS] = {"methods", 0, CMD_BENCH_ERROR, OPTION_WORDS,
+                     "raster,path,flat,phong,pbr,naive,adaptive", "raster,path",
+                     .help = "what to compare"},
+    [OPT_REFERENCE] = {"reference", 0, CMD_BENCH_ERROR, OPTION_TEXT, "REF.pfm",
+                       .help = "the truth (default: rendered)"},
     [OPT_FRAMES] = {"frames", 0, CMD_BENCH_RASTER, OPTION_WHOLE, "N", "1000", 1,
                     1000000, .help = "frames to draw at each size"},
-    [OPT_CSV] = {"csv", 0, CMD_BENCH_RASTER, OPTION_SWITCH,
+    [OPT_CSV] = {"csv", 0, CMD_BENCH_RASTER | CMD_BENCH_ERROR, OPTION_SWITCH,
                  .help = "print lines of comma-separated values"},
     [OPT_MAN] = {"man", 0, CMD_HELP, OPTION_SWITCH,
                  .help = "print the manual page, for man -l -"},
@@ -259,7 +286,6 @@ const option option_table[OPTION_COUNT] = {
 };
 
 const char *const later_words[] = {
-    "merge",      "bench error", "wide",   "mis",   "sobol",
-    "checkpoint", "every",       "resume", "shard", "explain",
-    ".exr",       ".part",       "exr",    "part",  NULL,
+    "merge", "wide",    "mis",  "sobol", "checkpoint", "every", "resume",
+    "shard", "explain", ".exr", ".part", "exr",        "part",  NULL,
 };

@@ -19,7 +19,8 @@ enum {
   CMD_VIEW = 128,
   CMD_IBL = 256,
   CMD_BENCH_IBL = 512,
-  CMD_ALL = 1023
+  CMD_BENCH_ERROR = 1024,
+  CMD_ALL = 2047
 };
 
 // A command: its one or two words, and what it wants after the options.
@@ -43,7 +44,8 @@ typedef enum option_kind {
   OPTION_TRIPLE,  // X,Y,Z
   OPTION_SIZE,    // WxH, whole
   OPTION_SIZES,   // some of them, split at commas
-  OPTION_BOX      // X0,Y0,X1,Y1, whole
+  OPTION_BOX,     // X0,Y0,X1,Y1, whole
+  OPTION_WHOLES   // whole numbers, split at commas
 } option_kind;
 
 // An option: what the parser accepts, and what help prints.
