@@ -78,6 +78,46 @@ exits 3 "bench raster of nothing" "$facet" bench raster missing.obj
 for kind in primary ao aod bounce; do
   ok "--kind $kind" "$facet" bench rays a.obj --kind $kind --repeat 1
 done
+# Error: against a reference that is given, and one that facet makes.
+"$facet" render a.obj --engine path -r 24x16 --spp 256 --seed 9 -q -o ref.pfm
+error() { "$facet" bench error a.obj -r 24x16 --spp 4,16 "$@"; }
+exits 0 "bench error" error --reference ref.pfm
+ok "a line for raster and each number of samples" sh -c 'grep -c "^raster  *- \|^path  *4 \|^path  *16 " out | grep -qx 3'
+error --reference ref.pfm --repeat 3 --seed 5 --methods naive --json -o e.png >error.json
+error --repeat 2 --methods path,flat,adaptive --csv -o e.svg >error.csv
+ok "numbers, runs and a plot, for machines" python3 - <<'E'
+import csv, json, math, xml.dom.minidom
+j = json.load(open("error.json"))
+assert (j["width"], j["height"], j["repeat"]) == (24, 16, 3) and j["reference"]["file"] == "ref.pfm"
+assert [(p["method"], p["spp"]) for p in j["points"]] == [("naive", 4), ("naive", 16)]
+for p in j["points"]:
+    runs = p["runs"]
+    assert [r["seed"] for r in runs] == [5, 6, 7] and len({r["relmse"] for r in runs}) == 3
+    assert math.isclose(p["relmse"], sum(r["relmse"] for r in runs) / 3, rel_tol=1e-9)
+    assert math.isclose(p["error"] ** 2, p["relmse"], rel_tol=1e-9) and p["estimated_error"] > 0
+    assert all(0 < r["seconds"]["render"] < r["seconds"]["total"] for r in runs)
+assert j["points"][1]["relmse"] < j["points"][0]["relmse"]
+rows = list(csv.DictReader(open("error.csv")))
+assert [r["method"] for r in rows] == ["path"] * 4 + ["flat"] * 2 + ["adaptive"] * 4
+assert rows[4]["estimated_error"] == "" and float(rows[0]["estimated_error"]) > 0
+assert xml.dom.minidom.parse("e.svg").documentElement.getAttribute("width") == "640"
+assert open("e.png", "rb").read(4) == b"\x89PNG"
+E
+"$facet" render a.obj --engine path --integrator naive -r 24x16 --spp 4 --seed 5 -q -o four.pfm
+"$facet" compare four.pfm ref.pfm --metric relmse --fail 1e9 --json >four.json
+ok "the same error as compare's" python3 -c '
+import json
+a, b = json.load(open("four.json"))["relmse"], json.load(open("error.json"))["points"][0]["runs"][0]["relmse"]
+assert abs(a / b - 1) < 1e-6, (a, b)'
+exits 2 "bench error: no samples" error --spp 4,
+exits 2 "bench error: a plot that is no picture" error -o plot.txt
+exits 2 "bench error: a reference of another size" "$facet" bench error a.obj -r 8x8 --spp 1 --reference ref.pfm
+exits 3 "bench error: no reference" error --reference missing.pfm
+exits 3 "bench error of nothing" "$facet" bench error missing.obj
+exits 4 "bench error: a plot that cannot be written" error --reference ref.pfm --spp 1 -o missing/x.png
+mkdir left
+TMPDIR=$PWD/left error --reference ref.pfm --spp 1 >/dev/null
+ok "nothing is left behind" rmdir left
 exits 3 "a missing mesh" "$facet" bench rays missing.obj
 exits 3 "a missing ray file" "$facet" bench rays a.obj --rays missing.rays
 echo RAYS >short.rays

@@ -25,7 +25,7 @@ ok "of numbers" sh -c 'tr -s " \n" " " <out | grep -q "without it (default: 64)"
 
 # Every option of every command, with every word that it offers.  The file is
 # not there, so exit 3 says that the command line itself was fine.
-for command in render view info compare ibl "bench load" "bench rays" "bench raster" "bench ibl"; do
+for command in render view info compare ibl "bench load" "bench rays" "bench raster" "bench ibl" "bench error"; do
   # shellcheck disable=SC2086
   "$facet" help $command >"$T/help" || fail "help $command"
   wrong= count=0 operands=missing.obj
@@ -40,6 +40,7 @@ for command in render view info compare ibl "bench load" "bench rays" "bench ras
     X,Y,Z) values=1,-2,.5e1 ;;
     WxH) values=8x4 ;;
     "frosted[=RADIUS]") values="frosted frosted=3" ;;
+    N,...) values="1 4,16" ;;
     WxH,...) values="8x4 8x4,16x8,1x1" ;;
     X0,Y0,X1,Y1) values=0,0,4,4 ;;
     "FILE|R,G,B|none") values="1,1,1 none x.hdr" ;;
@@ -100,7 +101,7 @@ nearest "render a.obj --shading albdo" "albedo"
 nearest "compare --metrics mae a b" "--metric"
 nearest "bench lod a.obj" "bench load"
 nearest "a.obj" "facet render a.obj"
-for later in merge "bench error" "render a.obj --resume" \
+for later in merge "render a.obj --resume" \
   "render a.obj --checkpoint x" "render a.obj --every 3" "render a.obj --shard 0/2" \
   "render a.obj --explain" \
   "render a.obj --bvh wide" "render a.obj --integrator mis" \
