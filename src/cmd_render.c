@@ -7,6 +7,7 @@
 
 #include "bvh.h"
 #include "clock.h"
+#include "path.h"
 #include "progress.h"
 
 #include <math.h>
@@ -22,9 +23,13 @@ typedef struct render_job {
   shot shot;
   output out;
   engine engine;
-  raster_job raster;         // of one engine
-  bvh tree;                  // of the other, with
-  path_world world;          // what it traces
+  raster_job raster;  // of one engine
+  bvh tree;           // of the other, with
+  path_world world;   // what it traces
+  light_set lights;   // and looks for
+  path_tracer paths;  // by one of these
+  path_naive naive;
+  integrator by;
   render_settings settings;  // and how
   render_result result;
   progress display;
@@ -254,6 +259,23 @@ static void print_json_render(const render_job *job) {
   json_end(&j);
 }
 
+// Who walks: path_naive by --integrator naive, with random numbers.
+static void choose_integrator(render_job *j) {
+  const option_value *v = j->o->value;
+  uint64_t seed = j->settings.seed;
+  if (v[OPT_INTEGRATOR].words == 1) {
+    j->naive = (path_naive){&j->world, seed};
+    j->by = path_naive_integrator(&j->naive);
+  } else {
+    light_set_build(&j->lights, &j->shot.scene, j->world.lights, true,
+                    j->shot.mem, j->shot.threads);
+    j->paths = (path_tracer){&j->world, &j->lights,
+                             (sampler_kind)v[OPT_SAMPLER].words, seed};
+    j->by = path_integrator(&j->paths);
+  }
+  j->settings.by = &j->by;
+}
+
 // Build the tree and trace paths.
 static void run_path(render_job *j) {
   shot *s = &j->shot;
@@ -263,6 +285,7 @@ static void run_path(render_job *j) {
             (uint32_t)m->triangle_count, BVH_SAH, s->mem, s->threads);
   bool brute = j->o->value[OPT_BVH].words == 2;
   j->world.tracer = brute ? brute_tracer(&j->tree) : bvh_tracer(&j->tree);
+  choose_integrator(j);
   j->display = progress_new(given(j, OPT_QUIET));
   signals_catch_stop();
   render_run(&j->result, &j->world, &s->view, &j->settings, s->mem, s->threads);

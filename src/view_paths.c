@@ -5,6 +5,7 @@
 
 #include "bvh.h"
 #include "film.h"
+#include "path.h"
 
 #include <assert.h>
 #include <string.h>
@@ -12,11 +13,19 @@
 // Pixels a side of a tile: what a worker finishes before it stops.
 enum { TILE_SIDE = 16 };
 
-// A tree over all of the scene or over its metal-rough triangles.
+// All of the scene or its metal-rough triangles alone: a tree and what shines.
 typedef struct view_tree {
   bvh tree;
+  light_set lights;
   bool built;
 } view_tree;
+
+// What a worker needs to sample a tile.
+typedef struct view_worker {
+  path_start *starts;
+  vec3 *colors;
+  void *room;  // of the integrator
+} view_worker;
 
 struct view_paths {
   const scene *given;
@@ -26,13 +35,26 @@ struct view_paths {
   scene scene;  // given, with materials as they look
   view_tree all, rough;
   path_world world;
+  path_tracer tracer;
+  integrator by;
   camera_view view;
   film film;
-  path_stats *stats;  // by worker
+  view_worker *team;
   int tiles_across, tile_count;
   int spp;       // passes in the film
   bool running;  // a pass is under way
 };
+
+static void hire_workers(view_paths *p) {
+  size_t workers = (size_t)pool_threads(p->threads);
+  p->team = ARENA_NEW(p->mem, view_worker, workers);
+  for (size_t i = 0; i < workers; i++) {
+    view_worker *w = &p->team[i];
+    w->starts = ARENA_NEW(p->mem, path_start, TILE_SIDE * TILE_SIDE);
+    w->colors = ARENA_NEW(p->mem, vec3, TILE_SIDE * TILE_SIDE);
+    w->room = p->by.room(p->by.self, p->mem);
+  }
+}
 
 view_paths *view_paths_new(const view_paths_settings *set, pool *threads,
                            arena *mem) {
@@ -44,7 +66,9 @@ view_paths *view_paths_new(const view_paths_settings *set, pool *threads,
   p->world = set->world;
   p->world.scene = &p->scene;
   p->film = film_new(mem, set->width, set->height, false);
-  p->stats = ARENA_NEW(mem, path_stats, (size_t)pool_threads(threads));
+  p->tracer = (path_tracer){.world = &p->world, .seed = set->seed};
+  p->by = path_integrator(&p->tracer);
+  hire_workers(p);
   p->tiles_across = (set->width + TILE_SIDE - 1) / TILE_SIDE;
   p->tile_count = p->tiles_across * ((set->height + TILE_SIDE - 1) / TILE_SIDE);
   return p;
@@ -64,39 +88,43 @@ static const uint32_t *only_rough_index(const scene *s, arena *mem) {
   return index;
 }
 
-// The tree for a look, built when it is first asked for.
-static const bvh *tree_for(view_paths *p, const view_look *look) {
+// What a look shows, built when it is first asked for.
+static const view_tree *tree_for(view_paths *p, const view_look *look) {
   view_tree *t = look->only_rough ? &p->rough : &p->all;
-  if (t->built) return &t->tree;
+  if (t->built) return t;
   const mesh *m = &p->given->mesh;
   const uint32_t *index =
       look->only_rough ? only_rough_index(p->given, p->mem) : m->position_index;
   bvh_build(&t->tree, m->positions, index, (uint32_t)m->triangle_count, BVH_SAH,
             p->mem, p->threads);
+  scene shown = *p->given;
+  shown.mesh.position_index = (uint32_t *)index;
+  light_set_build(&t->lights, &shown, p->world.lights, true, p->mem,
+                  p->threads);
   t->built = true;
-  return &t->tree;
+  return t;
 }
 
-// One more sample of pixel (x, y), the same as of any other renderer's pass.
-static void sample_pixel(view_paths *p, int x, int y, path_stats *stats) {
-  size_t i = (size_t)y * (size_t)p->set.width + (size_t)x;
-  rng random = rng_of(p->set.seed, i, (uint64_t)p->spp);
-  float dx = rng_next(&random), dy = rng_next(&random);
-  ray r = camera_ray(&p->view, (float)x + dx, (float)y + dy);
-  vec3 color = path_naive_radiance(&p->world, r, &random, stats);
-  if (vec3_finite(color)) film_add(&p->film, i, color);
-}
-
-// Work of the pool: one sample for each pixel of a tile.
+// Work of the pool: one sample for each pixel of a tile, the same as of any
+// other renderer's pass.
 static void sample_tile(void *context, size_t item, int worker) {
   view_paths *p = context;
+  view_worker *w = &p->team[worker];
   path_stats stats = {0};
   int x0 = (int)item % p->tiles_across * TILE_SIDE;
   int y0 = (int)item / p->tiles_across * TILE_SIDE;
+  size_t n = 0;
   for (int y = y0; y < y0 + TILE_SIDE && y < p->set.height; y++)
-    for (int x = x0; x < x0 + TILE_SIDE && x < p->set.width; x++)
-      sample_pixel(p, x, y, &stats);
-  p->stats[worker].rays += stats.rays;
+    for (int x = x0; x < x0 + TILE_SIDE && x < p->set.width; x++) {
+      uint64_t pixel = (uint64_t)y * (uint64_t)p->set.width + (uint64_t)x;
+      vec2 at = p->by.place(p->by.self, pixel, (uint32_t)p->spp);
+      ray r = camera_ray(&p->view, (float)x + at.x, (float)y + at.y);
+      w->starts[n++] = (path_start){r, pixel, (uint32_t)p->spp};
+    }
+  p->by.radiance(p->by.self, w->starts, n, w->colors, &stats, w->room);
+  for (size_t i = 0; i < n; i++)
+    if (vec3_finite(w->colors[i]))
+      film_add(&p->film, (size_t)w->starts[i].pixel, w->colors[i]);
 }
 
 static void start_pass(view_paths *p) {
@@ -119,7 +147,9 @@ bool view_paths_restart(view_paths *p, const view_look *look, error *err) {
   p->view = view;
   view_materials(p->scene.materials, p->given->materials,
                  p->given->material_count, look);
-  p->world.tracer = bvh_tracer(tree_for(p, look));
+  const view_tree *t = tree_for(p, look);
+  p->world.tracer = bvh_tracer(&t->tree);
+  p->tracer.lights = &t->lights;
   size_t pixels = (size_t)p->set.width * (size_t)p->set.height;
   memset(p->film.sum, 0, pixels * sizeof *p->film.sum);
   memset(p->film.count, 0, pixels * sizeof *p->film.count);

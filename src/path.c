@@ -1,0 +1,282 @@
+// path.c — the trick: paths go in waves.  All paths of a batch take one step
+// together: their rays are traced at once, then all are shaded, then all
+// shadow rays are traced at once.  A path is still a function of its pixel and
+// sample alone, so nobody can tell from the picture.
+
+#include "path.h"
+
+#include "tracer.h"
+#include "vertex.h"
+
+// A path whose throughput falls below this plays roulette for it.
+#define PLAY_BELOW 0.25f
+
+// From this segment on even a path that lost nothing is ended with probability
+// 1 - ENDLESS_SURVIVAL.
+enum { ENDLESS_FROM = 4096 };
+#define ENDLESS_SURVIVAL 0.999f
+
+// The most rays of a path; see path_naive.c.
+enum { MOST_RAYS = 100000 };
+
+// The dimensions of one vertex, counted from 2: the first two place the sample
+// in its pixel.  The direction comes first, because the first dimensions of a
+// sequence are its best.
+enum {
+  USE_DIRECTION = 0,  // two
+  USE_LIGHT = 2,      // two
+  USE_PICK = 4,
+  USE_LOBE = 5,
+  USE_MATTER = 6,
+  USE_LIFE = 7,  // opacity, roulette
+  USES = 8
+};
+
+// A path between two waves.
+typedef struct path {
+  sampler numbers;
+  vec3 sum, throughput;
+  vec3 from, from_n;  // where the last direction was sampled, and the normal
+  float pdf;          // of that direction; 0 where only a delta could give it
+  int segment, rays, inside;
+} path;
+
+// A light sample on its way through the scene: what it brings if nothing is in
+// between, to which path; and for sheets, from where to where.
+typedef struct shadow {
+  uint32_t path;
+  vec3 lit;
+  light_ray to;
+  surface from;
+} shadow;
+
+// The room of one worker: paths, those still on their way with their rays, and
+// the light samples of this wave.
+typedef struct wave {
+  const path_tracer *by;
+  path_stats *stats;
+  bool sheets, lights;  // whether there are any
+  path *paths;
+  uint32_t *alive;
+  ray *rays, *shadow_rays;
+  hit *hits;
+  shadow *shadows;
+  bool *blocked;
+  size_t count, next, shadow_count;
+} wave;
+
+// Number `use` of the path's current vertex.
+static float draw(path *p, uint32_t use) {
+  sampler_at(&p->numbers, 2 + USES * (uint32_t)p->rays + use);
+  return sampler_1(&p->numbers);
+}
+
+static vec2 draw_2(path *p, uint32_t use) {
+  sampler_at(&p->numbers, 2 + USES * (uint32_t)p->rays + use);
+  return sampler_2(&p->numbers);
+}
+
+// The weight of a sample of density a where the other way to find it has
+// density b.  Source: Veach 1997, section 9.2.4, the power heuristic.
+static float power_weight(float a, float b) {
+  if (!(b > 0)) return 1;
+  float r = b / a;
+  return 1 / (1 + r * r);
+}
+
+static void add(path *p, float weight, vec3 radiance) {
+  p->sum = vec3_mad(p->sum, weight, vec3_mul(p->throughput, radiance));
+}
+
+// The sky, found by a direction.
+static void meet_sky(const wave *w, path *p, const ray *r) {
+  vec3 d = vec3_unit(r->d);
+  vec3 sky = env_radiance(&w->by->world->scene->env, d);
+  if (!(vec3_peak(sky) > 0)) return;
+  float weight = 1;
+  if (p->pdf > 0)
+    weight = power_weight(p->pdf,
+                          light_pdf_env(w->by->lights, p->from, p->from_n, d));
+  add(p, weight, sky);
+}
+
+// A glowing surface, found by a direction.
+static void meet_glow(const wave *w, path *p, const vertex *v) {
+  vec3 glow = matter_emission(&v->at);
+  if (!(vec3_peak(glow) > 0)) return;
+  float weight = 1;
+  if (p->pdf > 0)
+    weight = power_weight(p->pdf,
+                          light_pdf_triangle(w->by->lights, p->from, p->from_n,
+                                             v->at.triangle, v->at.p));
+  add(p, weight, glow);
+}
+
+// Ask one light what it adds at v, if nothing is in between.
+static void ask_light(wave *w, uint32_t which, path *p, const vertex *v,
+                      const bsdf *b) {
+  vec2 u = draw_2(p, USE_LIGHT);
+  vec3 u3 = {draw(p, USE_PICK), u.x, u.y};
+  light_sample l;
+  if (!light_sample_at(w->by->lights, v->at.p, v->n, u3, &l)) return;
+  vec3 wi = vertex_local(v, l.wi), wo = vertex_local(v, v->wo);
+  if (!(wi.z > 0)) return;
+  vec3 f = l.delta ? bsdf_eval_point(b, wo, wi) : bsdf_eval(b, wo, wi);
+  float scale = wi.z / l.pdf;
+  if (!l.delta) scale *= power_weight(l.pdf, bsdf_pdf(b, wo, wi));
+  vec3 lit = vec3_mul(vec3_mul(p->throughput, f), l.radiance);
+  lit = vec3_scale(lit, scale);
+  if (!(vec3_peak(lit) > 0)) return;
+  light_ray to = {.is_point = l.has_end, .to = l.to, .wi = l.wi};
+  size_t i = w->shadow_count++;
+  w->shadow_rays[i] = light_ray_shadow(&to, &v->at, true);
+  w->shadows[i].path = which;
+  w->shadows[i].lit = lit;
+  if (!w->sheets) return;
+  w->shadows[i].to = to;
+  w->shadows[i].from = v->at;
+}
+
+// Go on in a direction sampled from b; false where nothing is scattered.
+static bool scatter(path *p, const vertex *v, const bsdf *b, ray *r) {
+  vec2 u = draw_2(p, USE_DIRECTION);
+  bsdf_sample d;
+  if (!bsdf_sample_wi(b, vertex_local(v, v->wo), draw(p, USE_LOBE), u.x, u.y,
+                      &d))
+    return false;
+  p->throughput = vec3_mul(p->throughput, d.weight);
+  p->from = v->at.p;
+  p->from_n = v->n;
+  p->pdf = d.delta ? 0 : d.pdf;
+  *r = vertex_leave(v, b, &d, r->d, &p->inside);
+  return vec3_peak(p->throughput) > 0;
+}
+
+// Russian roulette.
+static bool survives(path *p) {
+  float q = vec3_peak(p->throughput) / PLAY_BELOW;
+  q = fminf(q, p->segment < ENDLESS_FROM ? 1 : ENDLESS_SURVIVAL);
+  if (q >= 1) return true;
+  if (draw(p, USE_LIFE) >= q) return false;
+  p->throughput = vec3_scale(p->throughput, 1 / q);
+  return true;
+}
+
+// One bounce at v; false where the path ends.
+static bool bounce(wave *w, uint32_t which, vertex *v, ray *r) {
+  path *p = &w->paths[which];
+  matter m = vertex_matter(v, w->by->world->dfg, draw(p, USE_MATTER));
+  p->throughput = vec3_mul(p->throughput, m.weight);
+  if (w->lights && !bsdf_is_delta(&m.bsdf)) ask_light(w, which, p, v, &m.bsdf);
+  if (!scatter(p, v, &m.bsdf, r) || !survives(p)) return false;
+  p->segment++;
+  return true;
+}
+
+// What becomes of a path at its hit; *r is then its next ray.  False where it
+// ends.
+static bool step(wave *w, uint32_t which, const hit *h, ray *r) {
+  path *p = &w->paths[which];
+  const path_world *world = w->by->world;
+  if (h->triangle == HIT_NONE) {
+    meet_sky(w, p, r);
+    return false;
+  }
+  vertex v = vertex_at(world->scene, h, r->d);
+  bool goes_on;
+  if (matter_passes(&v.at) && draw(p, USE_LIFE) >= matter_opacity(&v.at)) {
+    *r = surface_ray(&v.at, r->d);
+    goes_on = true;
+  } else {
+    if (v.at.front) meet_glow(w, p, &v);
+    bool last = world->max_depth > 0 && p->segment >= world->max_depth;
+    goes_on = !last && bounce(w, which, &v, r);
+  }
+  if (++p->rays < MOST_RAYS) return goes_on;
+  w->stats->cut += goes_on;
+  return false;
+}
+
+// One step of every path on its way.
+static void step_all(wave *w) {
+  tracer_closest_many(&w->by->world->tracer, w->rays, w->hits, w->count);
+  w->stats->rays += w->count;
+  w->next = w->shadow_count = 0;
+  for (size_t i = 0; i < w->count; i++) {
+    ray r = w->rays[i];
+    if (!step(w, w->alive[i], &w->hits[i], &r)) continue;
+    w->alive[w->next] = w->alive[i];
+    w->rays[w->next++] = r;
+  }
+  w->count = w->next;
+}
+
+// Add the light samples that arrive.
+static void light_all(wave *w) {
+  const path_world *world = w->by->world;
+  tracer_any_many(&world->tracer, w->shadow_rays, w->blocked, w->shadow_count);
+  w->stats->rays += w->shadow_count;
+  for (size_t i = 0; i < w->shadow_count; i++) {
+    const shadow *s = &w->shadows[i];
+    float share = 1;
+    if (w->blocked[i]) {
+      if (!w->sheets) continue;
+      share = light_ray_through(&s->to, world, &s->from, w->stats);
+    }
+    path *p = &w->paths[s->path];
+    p->sum = vec3_mad(p->sum, share, s->lit);
+  }
+}
+
+static sampler numbers_of(const path_tracer *by, uint64_t pixel,
+                          uint32_t sample) {
+  return sampler_of(by->sampler, by->seed, pixel, sample);
+}
+
+static vec2 path_place(const void *self, uint64_t pixel, uint32_t sample) {
+  sampler s = numbers_of(self, pixel, sample);
+  return sampler_2(&s);
+}
+
+static void path_radiance(const void *self, const path_start *starts, size_t n,
+                          vec3 *out, path_stats *stats, void *room) {
+  const path_tracer *by = self;
+  wave *w = room;
+  w->by = by;
+  w->stats = stats;
+  w->sheets = scene_has_sheets(by->world->scene);
+  w->lights = light_set_any(by->lights);
+  w->count = n;
+  for (size_t i = 0; i < n; i++) {
+    w->paths[i] =
+        (path){.numbers = numbers_of(by, starts[i].pixel, starts[i].sample),
+               .throughput = vec3_all(1),
+               .segment = 1};
+    w->alive[i] = (uint32_t)i;
+    w->rays[i] = starts[i].ray;
+  }
+  while (w->count > 0) {
+    step_all(w);
+    light_all(w);
+  }
+  for (size_t i = 0; i < n; i++)
+    out[i] = w->paths[i].sum;
+}
+
+static void *path_room(const void *self, arena *mem) {
+  (void)self;
+  const size_t n = INTEGRATOR_BATCH;
+  wave *w = ARENA_NEW(mem, wave, 1);
+  w->paths = ARENA_NEW(mem, path, n);
+  w->alive = ARENA_NEW(mem, uint32_t, n);
+  w->rays = ARENA_NEW(mem, ray, n);
+  w->shadow_rays = ARENA_NEW(mem, ray, n);
+  w->hits = ARENA_NEW(mem, hit, n);
+  w->shadows = ARENA_NEW(mem, shadow, n);
+  w->blocked = ARENA_NEW(mem, bool, n);
+  return w;
+}
+
+integrator path_integrator(const path_tracer *p) {
+  return (integrator){p, path_place, path_room, path_radiance};
+}

@@ -1,0 +1,22 @@
+// path.h — light along random paths that look for it: at every vertex a light
+// is sampled as well as a direction, and both are weighted.
+
+#ifndef PATH_H
+#define PATH_H
+
+#include "light.h"
+#include "path_world.h"
+#include "sampler.h"
+
+// Unbiased for any max_depth, as path_naive is, of the same transport.  All
+// that it points to lives while it is used.
+typedef struct path_tracer {
+  const path_world *world;
+  const light_set *lights;  // of world's scene and lights
+  sampler_kind sampler;
+  uint64_t seed;
+} path_tracer;
+
+integrator path_integrator(const path_tracer *p);
+
+#endif
