@@ -44,7 +44,7 @@ CHAPTER_7 := $(CHAPTER_6) ibl_level ibl_lobe ibl_wave ibl_source ibl_methods \
 CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
 CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_world vertex path_naive film render
 CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
-              light_bound light_tree light_tree_build light_emission light
+              light_bound light_tree light_tree_build light_emission light path
 CHAPTER_11 := $(CHAPTER_10)
 CHAPTER_12 := $(CHAPTER_11)
 CHAPTER_14 := $(CHAPTER_12) post view_state view_script view_paths view_window

@@ -196,11 +196,12 @@ const option option_table[OPTION_COUNT] = {
     [OPT_SEED] = {"seed", 0, SHOWS | CMD_VIEW | CMD_BENCH_RAYS, OPTION_WHOLE,
                   "N", "0", 0, 9007199254740992.0,
                   .help = "another seed, other noise"},
-    [OPT_INTEGRATOR] = {"integrator", 0, SHOWS, OPTION_WORD, "auto|naive|mis",
-                        "auto", .help = "how paths look for light"},
-    [OPT_SAMPLER] = {"sampler", 0, SHOWS, OPTION_WORD, "sobol|random", "sobol",
-                     .help = "where random numbers come from"},
-    [OPT_BVH] = {"bvh", 0, SHOWS | CMD_BENCH_RAYS, OPTION_WORD,
+    [OPT_INTEGRATOR] = {"integrator", 0, CMD_RENDER, OPTION_WORD,
+                        "auto|naive|mis", "auto",
+                        .help = "how paths look for light"},
+    [OPT_SAMPLER] = {"sampler", 0, CMD_RENDER, OPTION_WORD, "sobol|random",
+                     "sobol", .help = "where random numbers come from"},
+    [OPT_BVH] = {"bvh", 0, CMD_RENDER | CMD_BENCH_RAYS, OPTION_WORD,
                  "auto|binary|brute", "auto",
                  .help = "how triangles are found; brute tests every one"},
     [OPT_EXPOSURE] = {"exposure", 0, CMD_RENDER | CMD_VIEW, OPTION_NUMBER,
@@ -286,6 +287,6 @@ const option option_table[OPTION_COUNT] = {
 };
 
 const char *const later_words[] = {
-    "merge", "wide",    "mis",  "sobol", "checkpoint", "every", "resume",
-    "shard", "explain", ".exr", ".part", "exr",        "part",  NULL,
+    "merge",   "wide", "checkpoint", "every", "resume", "shard",
+    "explain", ".exr", ".part",      "exr",   "part",   NULL,
 };

@@ -16,6 +16,7 @@ enum { TILE_SIDE = 16 };
 // All of the scene or its metal-rough triangles alone: a tree and what shines.
 typedef struct view_tree {
   bvh tree;
+  scene lit;  // with this index, for
   light_set lights;
   bool built;
 } view_tree;
@@ -97,9 +98,9 @@ static const view_tree *tree_for(view_paths *p, const view_look *look) {
       look->only_rough ? only_rough_index(p->given, p->mem) : m->position_index;
   bvh_build(&t->tree, m->positions, index, (uint32_t)m->triangle_count, BVH_SAH,
             p->mem, p->threads);
-  scene shown = *p->given;
-  shown.mesh.position_index = (uint32_t *)index;
-  light_set_build(&t->lights, &shown, p->world.lights, true, p->mem,
+  t->lit = *p->given;
+  t->lit.mesh.position_index = (uint32_t *)index;
+  light_set_build(&t->lights, &t->lit, p->world.lights, true, p->mem,
                   p->threads);
   t->built = true;
   return t;

@@ -1,6 +1,7 @@
 // test_view.c — laws of the viewer without a window: flight, keys, scripts, and
 // the path tracer that works beside it.
 
+#include "path.h"
 #include "view_paths.h"
 #include "view_script.h"
 
@@ -284,8 +285,12 @@ static void passes_are_the_renderers(void **state) {
   camera_view view;
   error err;
   assert_true(camera_view_of(&view, &FRONT, WIDTH, HEIGHT, &err));
+  light_set lights;
+  light_set_build(&lights, &w->scene, w->path.lights, true, &mem, NULL);
+  path_tracer paths = {&w->path, &lights, SAMPLER_SOBOL, 5};
+  integrator by = path_integrator(&paths);
   render_settings set = {
-      .width = WIDTH, .height = HEIGHT, .spp = spp, .seed = 5};
+      .width = WIDTH, .height = HEIGHT, .spp = spp, .by = &by};
   render_result truth;
   render_run(&truth, &w->path, &view, &set, &mem, NULL);
   static const int WORKERS[] = {1, 2, 5};
