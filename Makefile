@@ -46,14 +46,15 @@ CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_world vertex path_naive film rend
 CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
               light_bound light_tree light_tree_build light_emission light path
 CHAPTER_11 := $(CHAPTER_10)
-CHAPTER_12 := $(CHAPTER_11)
+CHAPTER_12 := $(CHAPTER_11) simd_base simd_avx2 simd wide_tree wide_levels wide_box wide_leaf \
+             wide_kernel wide_base wide_avx2 wide_avx512 wide
 CHAPTER_14 := $(CHAPTER_12) post view_state view_script view_paths view_window
 CHAPTER_15 := $(CHAPTER_14) glyph sketch plot
 LIBRARY   := $(CHAPTER_15)
-CHAPTERS  := 1 2 3 4 5 6 7 8 9 14 15 17
+CHAPTERS  := 1 2 3 4 5 6 7 8 9 12 14 15 17
 # The command line, the only floor that prints and exits.
 COMMAND   := json tonemap progress option_id option_table option cmd_shared cmd_signals \
-             cmd_output cmd_shot cmd_raster cmd_render cmd_view_say cmd_view cmd_info_scene \
+             cmd_output cmd_tree cmd_shot cmd_raster cmd_render cmd_view_say cmd_view cmd_info_scene \
              cmd_info cmd_compare cmd_bench cmd_bench_raster cmd_ibl cmd_bench_ibl \
              cmd_child cmd_error_run cmd_bench_error \
              cmd_help main
@@ -79,6 +80,13 @@ $(B)/facet: $(call obj,$(MODULES))
 $(B)/%.o: %.c Makefile
 	@mkdir -p $(@D)
 	$(CC) $(FLAGS) $(CFLAGS) -MMD -MP -c $< -o $@
+
+# One kernel (src/wide_kernel.h) for several sets of instructions; the program
+# asks the processor which it has.
+ifneq (,$(findstring x86_64,$(shell $(CC) -dumpmachine)))
+$(B)/src/wide_avx2.o: FLAGS += -mavx2
+$(B)/src/wide_avx512.o: FLAGS += -mavx2 -mavx512f -mavx512vl -mavx512dq -mavx512bw
+endif
 
 # The files of shaders/ as one table of names and texts (src/glsl.h).
 SHADERS := $(wildcard shaders/*.glsl shaders/*.vert shaders/*.frag)

@@ -1,8 +1,7 @@
 // cmd_bench.c — facet bench load and bench rays: how fast, on this machine.
 
-#include "cmd_shared.h"
+#include "cmd_tree.h"
 
-#include "bvh.h"
 #include "clock.h"
 #include "normals.h"
 #include "obj.h"
@@ -107,8 +106,7 @@ int cmd_bench_load(const options *o) {
 typedef struct rays_run {
   const options *o;
   mesh m;
-  bvh tree;
-  tracer tracer;
+  cmd_tree tree;
   ray_set set;
   hit *hits;
   double build_seconds, trace_seconds;
@@ -116,11 +114,13 @@ typedef struct rays_run {
 } rays_run;
 
 // Bytes of the tree and of the triangles as it reads them, per triangle.
-static double bytes_per_triangle(const bvh *b) {
-  double bytes = (double)b->node_count * sizeof(bvh_node) +
-                 (double)b->kept * sizeof(uint32_t);
-  double data = (double)b->triangle_count * 3 * sizeof(uint32_t);
-  return (bytes + data) / fmax((double)b->triangle_count, 1);
+static double bytes_per_triangle(const rays_run *r) {
+  return (double)cmd_tree_bytes(&r->tree) /
+         fmax((double)r->m.triangle_count, 1);
+}
+
+static int tree_depth(const rays_run *r) {
+  return r->tree.wide.nodes != NULL ? r->tree.wide.depth : r->tree.binary.depth;
 }
 
 // Numbers for people or machines.
@@ -135,8 +135,8 @@ static void print_rays(const rays_run *r, size_t repeat) {
     printf("%s: %zu triangles, %d threads, median of %zu\n", o->operands[0],
            r->m.triangle_count, pool_threads(r->threads), repeat);
     printf("build   %.4f s, cost %.2f, depth %d, %.1f bytes a triangle\n",
-           r->build_seconds, r->tree.cost, r->tree.depth,
-           bytes_per_triangle(&r->tree));
+           r->build_seconds, r->tree.binary.cost, tree_depth(r),
+           bytes_per_triangle(r));
     printf("rays    %zu of kind %s, %zu hits\n", r->set.count, kind, found);
     printf("trace   %.4f s, %.3f million rays a second\n", r->trace_seconds,
            rate);
@@ -151,9 +151,9 @@ static void print_rays(const rays_run *r, size_t repeat) {
   json_count(&j, "hits", found);
   json_count(&j, "threads", (unsigned long long)pool_threads(r->threads));
   json_number(&j, "build_seconds", r->build_seconds);
-  json_number(&j, "sah_cost", r->tree.cost);
-  json_count(&j, "depth", (unsigned long long)r->tree.depth);
-  json_number(&j, "bytes_per_triangle", bytes_per_triangle(&r->tree));
+  json_number(&j, "sah_cost", r->tree.binary.cost);
+  json_count(&j, "depth", (unsigned long long)tree_depth(r));
+  json_number(&j, "bytes_per_triangle", bytes_per_triangle(r));
   json_number(&j, "seconds", r->trace_seconds);
   json_number(&j, "mrays_per_second", rate);
   json_close(&j, '{');
@@ -167,14 +167,11 @@ static void build_trees(rays_run *r, size_t repeat, arena *mem) {
   for (size_t k = 0; k < repeat; k++) {
     arena once = {0};
     arena *into = k + 1 == repeat ? mem : &once;
-    bvh_build(&r->tree, r->m.positions, r->m.position_index,
-              (uint32_t)r->m.triangle_count, BVH_SAH, into, r->threads);
+    cmd_tree_build(&r->tree, r->o, &r->m, into, r->threads);
     seconds[k] = r->tree.seconds;
     arena_free(&once);
   }
   r->build_seconds = cmd_median(seconds, repeat);
-  bool brute = r->o->value[OPT_BVH].words == 2;
-  r->tracer = brute ? brute_tracer(&r->tree) : bvh_tracer(&r->tree);
 }
 
 // Read or make the rays; an exit code.
@@ -186,8 +183,7 @@ static int get_rays(rays_run *r, arena *mem) {
       return EXIT_DONE;
     return cmd_fail(o, EXIT_INPUT, "%s", err.text);
   }
-  ray_source from = {
-      .m = &r->m, .tree = bvh_tracer(&r->tree), .threads = r->threads};
+  ray_source from = {.m = &r->m, .tree = r->tree.tracer, .threads = r->threads};
   rays_generate(&r->set, (ray_kind)o->value[OPT_KIND].words, &from, mem);
   return EXIT_DONE;
 }
@@ -204,7 +200,7 @@ static int run_rays(rays_run *r, arena *mem) {
   if (code != EXIT_DONE) return code;
   r->hits = ARENA_NEW(mem, hit, r->set.count);
   r->trace_seconds =
-      rays_trace(r->hits, &r->set, r->tracer, r->threads, (int)repeat);
+      rays_trace(r->hits, &r->set, r->tree.tracer, r->threads, (int)repeat);
   const char *hits = o->value[OPT_HITS].text;
   if (hits != NULL && !rays_save_hits(&r->set, r->hits, hits, &err))
     return cmd_fail(o, EXIT_OUTPUT, "%s", err.text);

@@ -4,8 +4,8 @@
 #include "cmd_raster.h"
 #include "cmd_shot.h"
 #include "cmd_signals.h"
+#include "cmd_tree.h"
 
-#include "bvh.h"
 #include "clock.h"
 #include "path.h"
 #include "progress.h"
@@ -24,7 +24,7 @@ typedef struct render_job {
   output out;
   engine engine;
   raster_job raster;  // of one engine
-  bvh tree;           // of the other, with
+  cmd_tree tree;      // of the other, with
   path_world world;   // what it traces
   light_set lights;   // and looks for
   path_tracer paths;  // by one of these
@@ -216,17 +216,11 @@ static void json_seconds(json *j, const render_job *job) {
 // What only the path engine has to tell.
 static void json_path(json *j, const render_job *job) {
   const render_result *r = &job->result;
-  const bvh *b = &job->tree;
   json_number(j, "error", r->error > 0 ? r->error : (double)NAN);
   json_count(j, "seed", job->settings.seed);
   json_flag(j, "stopped", r->stopped);
   json_open(j, "bvh", '{');
-  json_count(j, "nodes", b->node_count);
-  json_number(j, "cost", b->cost);
-  json_count(j, "depth", (unsigned long long)b->depth);
-  json_count(j, "dropped", b->dropped);
-  json_count(j, "bytes",
-             b->node_count * sizeof(bvh_node) + b->kept * sizeof(uint32_t));
+  cmd_tree_json(j, &job->tree);
   json_close(j, '{');
 }
 
@@ -281,10 +275,8 @@ static void run_path(render_job *j) {
   shot *s = &j->shot;
   const mesh *m = &s->scene.mesh;
   choose_settings(j);
-  bvh_build(&j->tree, m->positions, m->position_index,
-            (uint32_t)m->triangle_count, BVH_SAH, s->mem, s->threads);
-  bool brute = j->o->value[OPT_BVH].words == 2;
-  j->world.tracer = brute ? brute_tracer(&j->tree) : bvh_tracer(&j->tree);
+  cmd_tree_build(&j->tree, j->o, m, s->mem, s->threads);
+  j->world.tracer = j->tree.tracer;
   choose_integrator(j);
   j->display = progress_new(given(j, OPT_QUIET));
   signals_catch_stop();

@@ -36,21 +36,43 @@ typedef struct trace_job {
   tracer tree;
 } trace_job;
 
+// Rays begin..end-1, together where the tree has an answer to many at once.
+static void trace_closest(const trace_job *job, size_t begin, size_t end) {
+  const tracer *t = &job->tree;
+  const ray *rays = job->set->rays;
+  if (t->closest_many != NULL) {
+    t->closest_many(t->tree, rays + begin, job->hits + begin, end - begin);
+    return;
+  }
+  for (size_t i = begin; i < end; i++) {
+    job->hits[i] = (hit){.t = rays[i].tmax, .triangle = HIT_NONE};
+    t->closest(t->tree, &rays[i], &job->hits[i]);
+  }
+}
+
+static void trace_any(const trace_job *job, size_t begin, size_t end) {
+  const tracer *t = &job->tree;
+  const ray *rays = job->set->rays;
+  bool blocked[TRACE_CHUNK];
+  if (t->any_many != NULL)
+    t->any_many(t->tree, rays + begin, blocked, end - begin);
+  else
+    for (size_t i = begin; i < end; i++)
+      blocked[i - begin] = t->any(t->tree, &rays[i]);
+  for (size_t i = begin; i < end; i++)
+    job->hits[i] =
+        (hit){.t = rays[i].tmax, .triangle = blocked[i - begin] ? 0 : HIT_NONE};
+}
+
 static void trace_chunk(void *context, size_t item, int worker) {
   (void)worker;
   const trace_job *job = context;
-  const ray_set *s = job->set;
-  size_t end = (item + 1) * TRACE_CHUNK;
-  if (end > s->count) end = s->count;
-  for (size_t i = item * TRACE_CHUNK; i < end; i++) {
-    const ray *r = &s->rays[i];
-    hit h = {.t = r->tmax, .triangle = HIT_NONE};
-    if (!s->any)
-      job->tree.closest(job->tree.tree, r, &h);
-    else if (job->tree.any(job->tree.tree, r))
-      h.triangle = 0;
-    job->hits[i] = h;
-  }
+  size_t begin = item * TRACE_CHUNK, end = begin + TRACE_CHUNK;
+  if (end > job->set->count) end = job->set->count;
+  if (job->set->any)
+    trace_any(job, begin, end);
+  else
+    trace_closest(job, begin, end);
 }
 
 static int by_seconds(const void *a, const void *b) {

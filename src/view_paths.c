@@ -3,9 +3,9 @@
 
 #include "view_paths.h"
 
-#include "bvh.h"
 #include "film.h"
 #include "path.h"
+#include "wide.h"
 
 #include <assert.h>
 #include <string.h>
@@ -15,7 +15,7 @@ enum { TILE_SIDE = 16 };
 
 // All of the scene or its metal-rough triangles alone: a tree and what shines.
 typedef struct view_tree {
-  bvh tree;
+  wide_tree tree;
   scene lit;  // with this index, for
   light_set lights;
   bool built;
@@ -96,8 +96,12 @@ static const view_tree *tree_for(view_paths *p, const view_look *look) {
   const mesh *m = &p->given->mesh;
   const uint32_t *index =
       look->only_rough ? only_rough_index(p->given, p->mem) : m->position_index;
-  bvh_build(&t->tree, m->positions, index, (uint32_t)m->triangle_count, BVH_SAH,
-            p->mem, p->threads);
+  arena scratch = {0};
+  bvh binary;
+  bvh_build(&binary, m->positions, index, (uint32_t)m->triangle_count, BVH_SAH,
+            &scratch, p->threads);
+  wide_tree_build(&t->tree, &binary, p->mem, p->threads);
+  arena_free(&scratch);
   t->lit = *p->given;
   t->lit.mesh.position_index = (uint32_t *)index;
   light_set_build(&t->lights, &t->lit, p->world.lights, true, p->mem,
@@ -149,7 +153,7 @@ bool view_paths_restart(view_paths *p, const view_look *look, error *err) {
   view_materials(p->scene.materials, p->given->materials,
                  p->given->material_count, look);
   const view_tree *t = tree_for(p, look);
-  p->world.tracer = bvh_tracer(&t->tree);
+  p->world.tracer = wide_tracer(&t->tree);
   p->tracer.lights = &t->lights;
   size_t pixels = (size_t)p->set.width * (size_t)p->set.height;
   memset(p->film.sum, 0, pixels * sizeof *p->film.sum);

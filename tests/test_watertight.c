@@ -1,8 +1,8 @@
 // test_watertight.c — from inside a closed mesh every ray hits something, also
-// through its edges and corners, also through the tree.
+// through its edges and corners, also through the trees.
 
-#include "bvh.h"
 #include "shapes.h"
+#include "wide.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,6 +19,8 @@ enum { BATCH = 10000, RAYS = 650000 };
 typedef struct closed_mesh {
   shape s;
   bvh b;
+  wide_tree wide;
+  tracer many;        // of the wide tree
   vec3 centre, room;  // where rays start: centre +- room
   uint32_t *leaks;    // of each batch
 } closed_mesh;
@@ -37,6 +39,8 @@ static void try_rays(void *context, size_t item, int worker) {
   closed_mesh *m = context;
   uint64_t state = 7919 * item + 13;
   uint32_t leaks = 0;
+  ray rays[BATCH];
+  hit hits[BATCH];
   for (int i = 0; i < BATCH; i++) {
     vec3 u = vec3_mul(m->room, shape_point(&state));
     vec3 o = vec3_add(m->centre, u);
@@ -44,7 +48,11 @@ static void try_rays(void *context, size_t item, int worker) {
     ray r = ray_from(o, vec3_sub(aim, o));
     hit h;
     leaks += !bvh_closest(&m->b, &r, &h);
+    rays[i] = r;
   }
+  m->many.closest_many(&m->wide, rays, hits, BATCH);
+  for (int i = 0; i < BATCH; i++)
+    leaks += hits[i].triangle == HIT_NONE;
   m->leaks[item] = leaks;
 }
 
@@ -58,6 +66,8 @@ static uint32_t leaks_of(shape s, vec3 centre, vec3 room, uint32_t rays) {
   m.leaks = ARENA_NEW(&mem, uint32_t, batches);
   bvh_build(&m.b, s.positions, s.index, s.triangles, BVH_SAH, &mem, threads);
   assert_int_equal(m.b.dropped, 0);
+  wide_tree_build(&m.wide, &m.b, &mem, threads);
+  m.many = wide_tracer(&m.wide);
   pool_run(threads, batches, try_rays, &m);
   uint32_t leaks = 0;
   for (size_t i = 0; i < batches; i++)

@@ -1,0 +1,48 @@
+// cmd_tree.c
+
+#include "cmd_tree.h"
+
+// The words of --bvh, in the order of its row in the table of options.
+enum { TREE_AUTO, TREE_BINARY, TREE_WIDE, TREE_BRUTE };
+
+void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
+                    pool *threads) {
+  long long word = o->value[OPT_BVH].words;
+  bool wide = word == TREE_AUTO || word == TREE_WIDE;
+  arena scratch = {0};
+  *out = (cmd_tree){0};
+  bvh_build(&out->binary, m->positions, m->position_index,
+            (uint32_t)m->triangle_count, BVH_SAH, wide ? &scratch : mem,
+            threads);
+  out->seconds = out->binary.seconds;
+  if (wide) wide_tree_build(&out->wide, &out->binary, mem, threads);
+  if (out->wide.nodes == NULL) {
+    out->tracer = word == TREE_BRUTE ? brute_tracer(&out->binary)
+                                     : bvh_tracer(&out->binary);
+    arena_adopt(mem, &scratch);
+    return;
+  }
+  out->seconds += out->wide.seconds;
+  out->tracer = wide_tracer(&out->wide);
+  out->binary.nodes = NULL;
+  out->binary.order = NULL;
+  arena_free(&scratch);
+}
+
+size_t cmd_tree_bytes(const cmd_tree *t) {
+  if (t->wide.nodes != NULL) return wide_tree_bytes(&t->wide);
+  const bvh *b = &t->binary;
+  return b->node_count * sizeof(bvh_node) + b->kept * sizeof(uint32_t) +
+         (size_t)b->triangle_count * 3 * sizeof(uint32_t);
+}
+
+void cmd_tree_json(json *j, const cmd_tree *t) {
+  bool wide = t->wide.nodes != NULL;
+  json_text(j, "kind", wide ? "wide" : "binary");
+  json_count(j, "nodes", wide ? t->wide.node_count : t->binary.node_count);
+  json_number(j, "cost", t->binary.cost);
+  int depth = wide ? t->wide.depth : t->binary.depth;
+  json_count(j, "depth", (unsigned long long)depth);
+  json_count(j, "dropped", t->binary.dropped);
+  json_count(j, "bytes", cmd_tree_bytes(t));
+}

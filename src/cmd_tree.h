@@ -1,0 +1,28 @@
+// cmd_tree.h — the tree that --bvh asks for.
+
+#ifndef CMD_TREE_H
+#define CMD_TREE_H
+
+#include "cmd_shared.h"
+#include "mesh.h"
+#include "wide.h"
+
+// A mesh made traceable, and what that cost.  The binary tree has its nodes
+// only where it is what traces; its counts stay.
+typedef struct cmd_tree {
+  bvh binary;
+  wide_tree wide;  // nodes NULL when it is not what traces
+  tracer tracer;
+  double seconds;
+} cmd_tree;
+
+void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
+                    pool *threads);
+
+// Bytes of what rays read: nodes, and triangles or their numbers.
+size_t cmd_tree_bytes(const cmd_tree *t);
+
+// The members of the object "bvh".
+void cmd_tree_json(json *j, const cmd_tree *t);
+
+#endif

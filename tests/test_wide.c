@@ -1,0 +1,241 @@
+// test_wide.c — the wide tree against the list, to the bit, on every set of
+// instructions that this machine has.
+
+#include "groves.h"
+#include "wide.h"
+
+#include <string.h>
+
+// A grove with its wide tree, and how it is asked.
+typedef struct wide_grove {
+  grove g;
+  wide_tree wide;
+  const wide_level *level;
+} wide_grove;
+
+enum { BATCH = 500 };
+
+// The list's answers to a batch and those of the four ways to ask.
+typedef struct answers {
+  ray rays[BATCH];
+  hit list[BATCH], many[BATCH];
+  bool blocked[BATCH];
+} answers;
+
+static void ask_list(answers *a, const grove *g) {
+  for (int i = 0; i < BATCH; i++) {
+    a->list[i] = (hit){.t = a->rays[i].tmax, .triangle = HIT_NONE};
+    brute_closest(&g->b, &a->rays[i], &a->list[i]);
+  }
+}
+
+// Whether the single questions about ray i agree with the list.
+static bool single_agrees(const answers *a, const wide_grove *w, int i) {
+  const ray *r = &a->rays[i];
+  hit one = {.t = r->tmax, .triangle = HIT_NONE}, counted = one;
+  bvh_visits v = {0};
+  bool found = a->list[i].triangle != HIT_NONE;
+  return w->level->closest(&w->wide, r, &one) == found &&
+         w->level->closest_counted(&w->wide, r, &counted, &v) == found &&
+         w->level->any(&w->wide, r) == found &&
+         memcmp(&one, &a->list[i], sizeof one) == 0 &&
+         memcmp(&counted, &a->list[i], sizeof one) == 0;
+}
+
+// The same for many at once, in streams of uneven length.
+static bool many_agree(answers *a, const wide_grove *w) {
+  static const int lengths[] = {1, 0, 2, 7, 64, 100, 326};
+  int at = 0;
+  for (size_t k = 0; k < sizeof lengths / sizeof *lengths; k++) {
+    size_t n = (size_t)lengths[k];
+    w->level->closest_many(&w->wide, a->rays + at, a->many + at, n);
+    w->level->any_many(&w->wide, a->rays + at, a->blocked + at, n);
+    at += lengths[k];
+  }
+  assert_int_equal(at, BATCH);
+  for (int i = 0; i < BATCH; i++)
+    if (a->blocked[i] != (a->list[i].triangle != HIT_NONE) ||
+        memcmp(&a->many[i], &a->list[i], sizeof(hit)) != 0)
+      return false;
+  return true;
+}
+
+static void try_batch(void *context, size_t item, int worker) {
+  (void)worker;
+  wide_grove *w = context;
+  answers a;
+  uint64_t state = 977 * item + 1;
+  for (int i = 0; i < BATCH; i++)
+    a.rays[i] = ray_near(&w->g, &state);
+  ask_list(&a, &w->g);
+  for (int level = 0; level < WIDE_LEVELS; level++) {
+    wide_grove of = *w;
+    of.level = wide_level_at(level);
+    if (of.level == NULL) continue;
+    bool agree = many_agree(&a, &of);
+    for (int i = 0; i < BATCH && agree; i++)
+      agree = single_agrees(&a, &of, i);
+    if (!agree) w->g.wrong = 1;  // only told apart from 0
+  }
+}
+
+static void wide_plant(wide_grove *w, shape s, arena *mem, bvh_method method) {
+  *w = (wide_grove){0};
+  grove_plant(&w->g, s, mem, method);
+  wide_tree_build(&w->wide, &w->g.b, mem, NULL);
+}
+
+// The wide tree finds what testing every triangle finds: the same triangle, t
+// and weights to the bit, and the same yes or no, on 30,000 rays a mesh, asked
+// one by one and in streams, with all sets of instructions.
+static void wide_equals_list(void **unused) {
+  (void)unused;
+  arena mem = {0};
+  pool *threads = pool_new(&mem, pool_default_threads());
+  shape all[SHAPES];
+  shapes_all(all, &mem);
+  for (int i = 0; i < 2 * SHAPES; i++) {
+    wide_grove w;
+    wide_plant(&w, all[i / 2], &mem, i % 2 ? BVH_MEDIAN : BVH_SAH);
+    pool_run(threads, many(i % 2 ? 10000 : 30000) / BATCH, try_batch, &w);
+    if (w.g.wrong) print_message("# %s differs\n", w.g.s.name);
+    assert_int_equal(w.g.wrong, 0);
+  }
+  pool_free(threads);
+  arena_free(&mem);
+}
+
+// What is no ray hits nothing and harms nothing, in a stream of others too.
+static void no_rays(void **unused) {
+  (void)unused;
+  arena mem = {0};
+  wide_grove w;
+  wide_plant(&w, shape_sphere(&mem, 4), &mem, BVH_SAH);
+  const vec3 z = {0, 0, 0}, x = {1, 0, 0};
+  const ray rays[] = {{z, z, 0, INFINITY},
+                      {z, {1e-40f, -0.0f, 1e-39f}, 0, INFINITY},
+                      {z, {NAN, 0, 0}, 0, INFINITY},
+                      {z, x, 0, INFINITY},
+                      {z, {1, INFINITY, 0}, 0, INFINITY},
+                      {{NAN, 0, 0}, x, 0, INFINITY},
+                      {{-INFINITY, 0, 0}, x, 0, INFINITY},
+                      {z, x, 2, 1},
+                      {z, x, NAN, INFINITY},
+                      {z, x, 0, NAN},
+                      {z, x, 0, 0.5f},
+                      {z, x, -INFINITY, 1.5f},
+                      {z, x, 1.5f, INFINITY}};
+  enum { N = sizeof rays / sizeof *rays };
+  for (int level = 0; level < WIDE_LEVELS; level++) {
+    const wide_level *l = wide_level_at(level);
+    if (l == NULL) continue;
+    hit h[N], one;
+    bool blocked[N];
+    l->closest_many(&w.wide, rays, h, N);
+    l->any_many(&w.wide, rays, blocked, N);
+    for (int i = 0; i < N; i++) {
+      bool hits = i == 3 || i == 11;
+      assert_int_equal(h[i].triangle != HIT_NONE, hits);
+      assert_int_equal(blocked[i], hits);
+      assert_int_equal(l->closest(&w.wide, &rays[i], &one), hits);
+      assert_int_equal(l->any(&w.wide, &rays[i]), hits);
+      if (!hits) assert_memory_equal(&h[i].t, &rays[i].tmax, sizeof(float));
+    }
+  }
+  arena_free(&mem);
+}
+
+// A plane as the kernels compute it.
+static float plane_at(const wide_node *n, int axis, int side, uint32_t child) {
+  return n->base[axis] + (float)n->plane[axis][side][child] * n->scale[axis];
+}
+
+// The triangles of a leaf are those of the mesh and lie in the leaf's box.
+static void check_leaf(const wide_grove *w, const wide_node *node,
+                       uint32_t child, unsigned char *seen) {
+  uint32_t ref = node->child[child], n = wide_leaf_count(ref);
+  const uint32_t *leaf = w->wide.triangles + 10 * (size_t)wide_leaf_first(ref);
+  for (uint32_t i = 0; i < n; i++) {
+    uint32_t t = leaf[9 * n + i];
+    assert_true(t < w->g.s.triangles);
+    seen[t]++;
+    for (uint32_t k = 0; k < 9; k++) {
+      float x;
+      memcpy(&x, leaf + k * n + i, sizeof x);
+      const vec3 *p = &w->g.s.positions[w->g.s.index[3 * t + k / 3]];
+      float want = k % 3 == 0 ? p->x : k % 3 == 1 ? p->y : p->z;
+      assert_memory_equal(&x, &want, sizeof x);
+      assert_true(x >= plane_at(node, (int)k % 3, 0, child));
+      assert_true(x <= plane_at(node, (int)k % 3, 1, child));
+    }
+  }
+}
+
+// Walk it all: every node is reached once, every kept triangle lies in one
+// leaf inside of all the boxes above it, at most 64 bytes a triangle.
+static void trees_are_whole(void **unused) {
+  (void)unused;
+  arena mem = {0};
+  shape all[SHAPES];
+  shapes_all(all, &mem);
+  for (int i = 0; i < SHAPES; i++) {
+    wide_grove w;
+    wide_plant(&w, all[i], &mem, BVH_SAH);
+    if (w.g.b.kept == 0) {
+      assert_null(w.wide.nodes);
+      continue;
+    }
+    unsigned char *seen = ARENA_NEW(&mem, unsigned char, w.g.s.triangles);
+    uint32_t reached = 1, triangles = 0;
+    for (uint32_t k = 0; k < w.wide.node_count; k++) {
+      const wide_node *n = &w.wide.nodes[k];
+      assert_true(n->count >= 1 && n->count <= WIDE);
+      for (uint32_t c = 0; c < n->count; c++) {
+        if (n->child[c] & WIDE_LEAF_BIT) {
+          check_leaf(&w, n, c, seen);
+          triangles += wide_leaf_count(n->child[c]);
+          continue;
+        }
+        assert_true(n->child[c] > k && n->child[c] < w.wide.node_count);
+        reached++;
+      }
+    }
+    assert_int_equal(reached, w.wide.node_count);
+    assert_int_equal(triangles, w.g.b.kept);
+    for (uint32_t t = 0; t < w.g.s.triangles; t++)
+      assert_true(seen[t] <= 1);
+    if (triangles > 50) assert_true(wide_tree_bytes(&w.wide) <= 64 * triangles);
+  }
+  arena_free(&mem);
+}
+
+// 1, 2 and 7 threads make the same nodes and triangles, to the byte.
+static void threads_do_not_matter(void **unused) {
+  (void)unused;
+  arena mem = {0};
+  wide_grove w;
+  wide_plant(&w, shape_sphere(&mem, 120), &mem, BVH_SAH);
+  for (int n = 2; n < 8; n += 5) {
+    pool *threads = pool_new(&mem, n);
+    wide_tree t;
+    wide_tree_build(&t, &w.g.b, &mem, threads);
+    pool_free(threads);
+    assert_int_equal(t.node_count, w.wide.node_count);
+    assert_int_equal(t.depth, w.wide.depth);
+    assert_memory_equal(t.nodes, w.wide.nodes,
+                        t.node_count * sizeof(wide_node));
+    assert_memory_equal(t.triangles, w.wide.triangles,
+                        t.triangle_count * 10 * sizeof(uint32_t));
+  }
+  arena_free(&mem);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(trees_are_whole),
+      cmocka_unit_test(wide_equals_list),
+      cmocka_unit_test(threads_do_not_matter),
+      cmocka_unit_test(no_rays),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
