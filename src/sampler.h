@@ -12,7 +12,8 @@
 typedef enum sampler_kind { SAMPLER_SOBOL, SAMPLER_RANDOM } sampler_kind;
 
 // The first SAMPLER_JOINT dimensions are even jointly, the later ones in
-// blocks of SAMPLER_BLOCK that are independent of each other.
+// blocks of SAMPLER_BLOCK that are independent of each other.  Pairs that start
+// at an even dimension are the most even.
 enum { SAMPLER_JOINT = SOBOL_DIMENSIONS, SAMPLER_BLOCK = 4 };
 
 // One sample on its way through its dimensions.  Key, index and kind say
@@ -79,5 +80,9 @@ static inline vec2 sampler_2(sampler *s) {
   float x = sampler_1(s);
   return (vec2){x, sampler_1(s)};
 }
+
+// The numbers of eight dimensions from `dimension` on, at once and the same:
+// about four times as fast as one by one.
+void sampler_8(const sampler *s, uint32_t dimension, float out[8]);
 
 #endif

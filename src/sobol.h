@@ -9,18 +9,19 @@
 
 #include <stdint.h>
 
-enum { SOBOL_DIMENSIONS = 16, SOBOL_BITS = 32 };
+enum { SOBOL_DIMENSIONS = 8, SOBOL_BITS = 32, SOBOL_ROW = 20 };
 
-// Column k holds the digits that bit k of the index flips.  Source: Sobol'
-// 1967 with the direction numbers of Joe and Kuo 2008 (new-joe-kuo-6).
-extern const uint32_t SOBOL_COLUMNS[SOBOL_DIMENSIONS][SOBOL_BITS];
+// Row k, column d: the digits of dimension d that bit k of the index flips, of
+// which digit k is the last.  Dimensions 2i and 2i + 1 together are a (0, 2)
+// sequence: each aligned run of 2^m points has one in every box of size 2^-m.
+// Behind the eight, the first four three times over.
+extern const uint32_t SOBOL_COLUMNS[SOBOL_BITS][SOBOL_ROW];
 
 // The digits of point `index`.
 static inline uint32_t sobol_digits(uint32_t index, uint32_t dimension) {
-  const uint32_t *column = SOBOL_COLUMNS[dimension];
   uint32_t digits = 0;
-  for (; index != 0; index >>= 1)
-    digits ^= *column++ & (0 - (index & 1));
+  for (int k = 0; index != 0; k++, index >>= 1)
+    digits ^= SOBOL_COLUMNS[k][dimension] & (0 - (index & 1));
   return digits;
 }
 
