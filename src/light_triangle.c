@@ -71,8 +71,9 @@ static view view_of(const light_triangle *t, vec3 p, float height) {
 
 // Uniform in solid angle: move corner c along the edge from a until a share u1
 // of the angle is left, then go from b towards it.  Sets k to the weights of
-// the unit directions to the corners.  Source: Peters 2021, "BRDF Importance
-// Sampling for Polygonal Lights", section 4 (after Arvo 1995).
+// the unit directions to the corners.  What is moved may lie opposite of b when
+// p is on the triangle, but for rounding.  Source: Peters 2021, "BRDF
+// Importance Sampling for Polygonal Lights", section 4 (after Arvo 1995).
 static void sample_angle(const view *v, float u1, float u2, float k[3]) {
   vec2 half = num_circle(0.25f / PI * v->angle * u1);
   float ka = v->volume * half.x - v->pairs * half.y;
@@ -85,7 +86,7 @@ static void sample_angle(const view *v, float u1, float u2, float k[3]) {
   vec3 step = vec3_sub(v->to[1], moved);
   float drop = 0.5f * vec3_dot(step, step);  // 1 - b . moved
   float low = u2 * drop;                     // 1 - b . result
-  float share = sqrtf(u2 * (2 - low) / (2 - drop));
+  float share = sqrtf(u2 * (2 - low) / fmaxf(2 - drop, 1e-6f));
   k[0] = share * ka;
   k[1] = 1 - low - share * (1 - drop);
   k[2] = share * kc;
