@@ -130,7 +130,7 @@ bool bvh_any(const bvh *b, const ray *r) {
 
 bool brute_closest(const bvh *b, const ray *r, hit *h) {
   bvh_walk w;
-  if (!walk_start(&w, b, r) || !walk_triangles(&w, 0, b->kept, false))
+  if (!walk_start(&w, b, r) || !walk_triangles(&w, 0, b->refs, false))
     return false;
   *h = w.best;
   return true;
@@ -138,7 +138,7 @@ bool brute_closest(const bvh *b, const ray *r, hit *h) {
 
 bool brute_any(const bvh *b, const ray *r) {
   bvh_walk w;
-  return walk_start(&w, b, r) && walk_triangles(&w, 0, b->kept, true);
+  return walk_start(&w, b, r) && walk_triangles(&w, 0, b->refs, true);
 }
 
 // The four again, without their types, as tracer wants them.

@@ -40,6 +40,7 @@ typedef struct bvh {
   bvh_node *nodes;          // nodes[0] is the root; NULL when nothing is left
   uint32_t node_count;
   uint32_t *order;  // triangle numbers in leaf order
+  uint32_t refs;    // how many: kept, or more where leaves share triangles
   uint32_t kept, dropped;
   int depth;
   double cost;  // SAH cost, in triangle tests per random ray

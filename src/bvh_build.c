@@ -57,33 +57,6 @@ static uint32_t smaller(uint32_t a, uint32_t b) {
   return a < b ? a : b;
 }
 
-// Whether a triangle can be hit: its corners are finite and span an area.
-static bool triangle_kept(const vec3 p[3]) {
-  if (!vec3_finite(p[0]) || !vec3_finite(p[1]) || !vec3_finite(p[2]))
-    return false;
-  double ax = (double)p[1].x - (double)p[0].x,
-         ay = (double)p[1].y - (double)p[0].y,
-         az = (double)p[1].z - (double)p[0].z;
-  double bx = (double)p[2].x - (double)p[0].x,
-         by = (double)p[2].y - (double)p[0].y,
-         bz = (double)p[2].z - (double)p[0].z;
-  return ay * bz != az * by || az * bx != ax * bz || ax * by != ay * bx;
-}
-
-// Read triangle t into r; false when it is dropped.
-static bool ref_of_triangle(const bvh *b, uint32_t t, sah_ref *r) {
-  const uint32_t *v = b->index + 3 * (size_t)t;
-  vec3 p[3] = {b->positions[v[0]], b->positions[v[1]], b->positions[v[2]]};
-  if (!triangle_kept(p)) return false;
-  r->box = sah_box_empty();
-  for (int i = 0; i < 3; i++) {
-    sah_box corner = {{p[i].x, p[i].y, p[i].z}, {p[i].x, p[i].y, p[i].z}};
-    sah_box_join(&r->box, &corner);
-  }
-  r->as.triangle = t;
-  return true;
-}
-
 // Count the kept triangles of a piece; the next pass fills their refs.
 static void count_piece(void *context, size_t item, int worker) {
   (void)worker;
@@ -93,7 +66,7 @@ static void count_piece(void *context, size_t item, int worker) {
   uint32_t end = begin + smaller(CHUNK, b->out->triangle_count - begin);
   sah_ref unused;
   for (uint32_t t = begin; t < end; t++)
-    p->kept += ref_of_triangle(b->out, t, &unused);
+    p->kept += bvh_ref_of(&unused, b->out, t);
 }
 
 static void fill_piece(void *context, size_t item, int worker) {
@@ -106,7 +79,7 @@ static void fill_piece(void *context, size_t item, int worker) {
   p->box = p->centres = sah_box_empty();
   for (uint32_t t = begin; t < end; t++) {
     sah_ref r;
-    if (!ref_of_triangle(b->out, t, &r)) continue;
+    if (!bvh_ref_of(&r, b->out, t)) continue;
     sah_box_join(&p->box, &r.box);
     sah_box_join_centre(&p->centres, &r.box);
     *to++ = r;
@@ -123,7 +96,7 @@ static bvh_part read_mesh(builder *b, arena *scratch) {
     b->pieces[i].first_ref = kept;
     kept += b->pieces[i].kept;
   }
-  b->out->kept = kept;
+  b->out->kept = b->out->refs = kept;
   b->out->dropped = n - kept;
   b->refs = ARENA_NEW(scratch, sah_ref, kept);
   pool_run(b->threads, b->piece_count, fill_piece, b);
@@ -343,19 +316,6 @@ static void build_tasks(builder *b, arena *mem, arena *scratch) {
   pool_run(b->threads, b->task_count, copy_task, b);
 }
 
-// The expected cost of the whole tree: each node costs what it does times the
-// chance that a line through the root's box meets its box.
-static double tree_cost(const bvh *b) {
-  double sum = 0;
-  for (uint32_t i = 0; i < b->node_count; i++) {
-    const bvh_node *n = &b->nodes[i];
-    double price = n->count > 0 ? (double)n->count : SAH_NODE_COST;
-    sum += price * aabb_half_area((aabb){n->lo, n->hi});
-  }
-  double all = aabb_half_area((aabb){b->nodes[0].lo, b->nodes[0].hi});
-  return all > 0 ? sum / all : 0;
-}
-
 void bvh_build(bvh *out, const vec3 *positions, const uint32_t *index,
                uint32_t triangle_count, bvh_method method, arena *mem,
                pool *threads) {
@@ -368,7 +328,7 @@ void bvh_build(bvh *out, const vec3 *positions, const uint32_t *index,
   if (out->kept > 0) {
     build_top(&b, &root, &scratch);
     build_tasks(&b, mem, &scratch);
-    out->cost = tree_cost(out);
+    out->cost = bvh_cost(out);
   }
   arena_free(&scratch);
   out->seconds = clock_seconds() - start;

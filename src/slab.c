@@ -2,6 +2,8 @@
 
 #include "slab.h"
 
+#include "triangle.h"
+
 #include <float.h>
 
 // The larger distance of the planes lo and hi from o.
@@ -24,7 +26,7 @@ slab_ray slab_ray_of(vec3 o, vec3 d, const aabb *all) {
   vec3 a = vec3_abs(d);
   float k = a.x > a.y ? (a.x > a.z ? m.x / a.x : m.z / a.z)
                       : (a.y > a.z ? m.y / a.y : m.z / a.z);
-  slab_ray s = {.inv = {1 / d.x, 1 / d.y, 1 / d.z}};
+  slab_ray s = {.inv = {1 / d.x, 1 / d.y, 1 / d.z}, .large = slab_large(all)};
   bool back_x = s.inv.x < 0, back_y = s.inv.y < 0, back_z = s.inv.z < 0;
   s.x = back_x ? 16 : 0;
   s.y = back_y ? 20 : 4;
@@ -48,12 +50,39 @@ static float most_of(float a, float b, float c) {
   return m > c ? m : c;
 }
 
+// The neighbouring floats between which x lies, or x itself twice, within
+// *lo..*hi.
+static void hold_between(float *lo, float *hi, double x) {
+  x = x < (double)*lo ? (double)*lo : x > (double)*hi ? (double)*hi : x;
+  float near = (float)x;
+  *lo = (double)near > x ? nextafterf(near, -INFINITY) : near;
+  *hi = (double)near < x ? nextafterf(near, INFINITY) : near;
+}
+
+// own, the box of triangle p, shrunk to the point where r meets it.
+static void shrink_to_point(slab_box *own, const ray *r, const vec3 p[3]) {
+  double w[3];
+  ray_shear shear = ray_shear_of(r->d);
+  if (!triangle_weights(r, &shear, p, w)) return;
+  hold_between(&own->lo.x, &own->hi.x,
+               w[0] * (double)p[0].x + w[1] * (double)p[1].x +
+                   w[2] * (double)p[2].x);
+  hold_between(&own->lo.y, &own->hi.y,
+               w[0] * (double)p[0].y + w[1] * (double)p[1].y +
+                   w[2] * (double)p[2].y);
+  hold_between(&own->lo.z, &own->hi.z,
+               w[0] * (double)p[0].z + w[1] * (double)p[1].z +
+                   w[2] * (double)p[2].z);
+}
+
 bool slab_hold(const slab_ray *s, const ray *r, const vec3 p[3], hit *h) {
   slab_box own = {
       .lo = {least_of(p[0].x, p[1].x, p[2].x), least_of(p[0].y, p[1].y, p[2].y),
              least_of(p[0].z, p[1].z, p[2].z)},
       .hi = {most_of(p[0].x, p[1].x, p[2].x), most_of(p[0].y, p[1].y, p[2].y),
              most_of(p[0].z, p[1].z, p[2].z)}};
+  if (vec3_peak(vec3_sub(own.hi, own.lo)) > s->large)
+    shrink_to_point(&own, r, p);
   slab_span box = slab_cut(s, &own, (slab_span){-INFINITY, INFINITY});
   if (h->t < box.near) h->t = box.near;
   if (h->t > box.far) h->t = box.far;

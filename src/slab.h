@@ -23,16 +23,24 @@ typedef struct slab_box {
 // A ray made ready for boxes.  Of each axis: the reciprocal of the direction;
 // the origin moved a little, for the plane where the ray enters and for the
 // plane where it leaves; and at which byte of a slab_box the plane is where it
-// enters.  The plane where it leaves is at that ^ 16.
+// enters.  The plane where it leaves is at that ^ 16.  `large` is slab_large.
 typedef struct slab_ray {
   vec3 inv, o_enter, o_leave;
   uint32_t x, y, z;
+  float large;
 } slab_ray;
 
 // The span of t in which a ray is inside a box; empty when near > far.
 typedef struct slab_span {
   float near, far;
 } slab_span;
+
+// A triangle is large when its box is longer than this in a mesh that fills
+// `all`; never in one whose size is no finite float.
+static inline float slab_large(const aabb *all) {
+  vec3 side = vec3_sub(all->hi, all->lo);
+  return 0x1p-8f * vec3_peak(side);
+}
 
 // The ray from o along d, flushed and not 0, for boxes inside `all`.
 slab_ray slab_ray_of(vec3 o, vec3 d, const aabb *all);
@@ -63,10 +71,13 @@ static inline slab_span slab_cut(const slab_ray *s, const void *box,
 }
 
 // h, a hit of triangle p[0..2] by r, with its t moved into the span of the
-// triangle's own box; false when that is empty or t leaves tmin..tmax of r.
-// The t of a triangle seen edge-on can be wrong by more than any margin.  Held
-// to the box, it is never less than the t at which a box around the triangle
-// is entered: a tree that skips boxes finds what a list would find.
+// triangle's own box, or of a large triangle's point that is hit; false when
+// that is empty or t leaves tmin..tmax of r.  The t of a triangle seen edge-on
+// can be wrong by more than any margin.  Held to the box, it is never less than
+// the t at which a box around the triangle is entered: a tree that skips boxes
+// finds what a list would find.  Held to the point, it is never less than where
+// a box around that part of the triangle is entered, for trees that part large
+// triangles.
 bool slab_hold(const slab_ray *s, const ray *r, const vec3 p[3], hit *h);
 
 #endif

@@ -44,19 +44,24 @@ static inline bool same_sign(double u, double v, double w) {
   return (u >= 0 && v >= 0 && w >= 0) || (u <= 0 && v <= 0 && w <= 0);
 }
 
-// The hit by doubles, for edge functions that are 0 or overflow in float.  The
-// product of two floats is exact in double, so the sign of each difference is
-// the true one.
-static bool hit_in_double(const sheared *c, float t_b1_b2[3]) {
-  double e[3];
+// The edge functions in double: false unless they agree in sign and have a
+// sum.  The product of two floats is exact in double, so the sign of each
+// difference is the true one, and none loses its first digits.
+static bool edges_in_double(const sheared *c, double e[3]) {
   for (int i = 0; i < 3; i++) {
     int j = (i + 1) % 3, k = (i + 2) % 3;
     e[i] =
         (double)c->x[k] * (double)c->y[j] - (double)c->y[k] * (double)c->x[j];
   }
-  if (!same_sign(e[0], e[1], e[2])) return false;
   double det = e[0] + e[1] + e[2];
-  if (det == 0 || !isfinite(det)) return false;
+  return same_sign(e[0], e[1], e[2]) && det != 0 && isfinite(det);
+}
+
+// The hit by doubles, for edge functions that are 0 or overflow in float.
+static bool hit_in_double(const sheared *c, float t_b1_b2[3]) {
+  double e[3];
+  if (!edges_in_double(c, e)) return false;
+  double det = e[0] + e[1] + e[2];
   double t =
       e[0] * (double)c->z[0] + e[1] * (double)c->z[1] + e[2] * (double)c->z[2];
   t_b1_b2[0] = (float)(t / det);
@@ -136,5 +141,17 @@ bool triangle_hit(const ray *r, const ray_shear *s, vec3 p0, vec3 p1, vec3 p2,
   h->t = t;
   h->b1 = t_b1_b2[1];
   h->b2 = t_b1_b2[2];
+  return true;
+}
+
+bool triangle_weights(const ray *r, const ray_shear *s, const vec3 p[3],
+                      double w[3]) {
+  sheared c;
+  for (int i = 0; i < 3; i++)
+    shear_corner(&c, i, p[i], r, s);
+  if (!edges_in_double(&c, w)) return false;
+  double det = w[0] + w[1] + w[2];
+  for (int i = 0; i < 3; i++)
+    w[i] /= det;
   return true;
 }

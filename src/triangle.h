@@ -29,4 +29,9 @@ ray_shear ray_shear_of(vec3 d);
 bool triangle_hit(const ray *r, const ray_shear *s, vec3 p0, vec3 p1, vec3 p2,
                   hit *h);
 
+// The weights of the three corners where a ray that triangle_hit let through
+// meets the triangle, each within 2^-51 of itself; false for a ray that misses.
+bool triangle_weights(const ray *r, const ray_shear *s, const vec3 p[3],
+                      double w[3]);
+
 #endif
