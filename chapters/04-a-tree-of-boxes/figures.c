@@ -780,7 +780,7 @@ static void draw_leaks(output *o) {
   count_leaks("ball", &m, &b, (vec3[2]){{0, 0, 0}, eye});
   image im = sheet_of(o, 480, 240);
   wrong_tree bare = {&b, BARE};
-  tracer by = {&bare, wrong_closest, NULL};
+  tracer by = {.tree = &bare, .closest = wrong_closest};
   draw_edges(im, &m, by, (vec3){0, 0, 0}, eye);
   publish(o, "leaks", im);
   for (size_t i = 0; i < m.position_count; i++)
