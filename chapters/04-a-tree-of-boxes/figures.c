@@ -704,7 +704,7 @@ static void draw_lost(output *o) {
   bvh b = tree_of(&m, BVH_SAH, o);
   image im = sheet_of(o, 480, 236);
   wrong_tree wrong = {&b, MINMAX};
-  tracer by[2] = {{&wrong, wrong_closest, NULL}, bvh_tracer(&b)};
+  tracer by[2] = {{.tree = &wrong, .closest = wrong_closest}, bvh_tracer(&b)};
   size_t lost = 0;
   for (int i = 0; i < 472 * 236; i++) {
     int side = i % 472 / 236, x = i % 236, y = i / 472;
