@@ -32,7 +32,7 @@ void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
 size_t cmd_tree_bytes(const cmd_tree *t) {
   if (t->wide.nodes != NULL) return wide_tree_bytes(&t->wide);
   const bvh *b = &t->binary;
-  return b->node_count * sizeof(bvh_node) + b->kept * sizeof(uint32_t) +
+  return b->node_count * sizeof(bvh_node) + b->refs * sizeof(uint32_t) +
          (size_t)b->triangle_count * 3 * sizeof(uint32_t);
 }
 

@@ -159,7 +159,7 @@ void wide_tree_build(wide_tree *out, const bvh *b, arena *mem, pool *threads) {
   (void)threads;
   double start = clock_seconds();
   *out = (wide_tree){0};
-  if (b->nodes == NULL || b->kept > WIDE_MAX_TRIANGLES) return;
+  if (b->nodes == NULL || b->refs > WIDE_MAX_TRIANGLES) return;
   arena scratch = {0};
   collapse c = {.b = b, .out = out};
   c.below = ARENA_NEW(&scratch, uint32_t, b->node_count);
