@@ -29,13 +29,14 @@ vec3 ibl_row(int start, int x0, int width, vec4 w) {
          w.w * ibl_texel(start + ((x0 + 2) & last));
 }
 
-vec3 ibl_level_at(int level, vec2 uv) {
-  int width = IBL_WIDTH[level], height = width / 2 + 1;
+// A level is its first texel and its width.
+vec3 ibl_level_at(ivec2 level, vec2 uv) {
+  int width = level.y, height = width / 2 + 1;
   float x = fract(uv.x) * float(width);
   float y = clamp(uv.y, 0.0, 1.0) * float(height - 1);
   int x0 = int(x), y0 = min(int(y), height - 2);
   vec4 wx = spline_weights(x - float(x0)), wy = spline_weights(y - float(y0));
-  int start = IBL_START[level] + y0 * width;
+  int start = level.x + y0 * width;
   vec3 sum = wy.x * ibl_row(start, x0, width, wx) +
              wy.y * ibl_row(start + width, x0, width, wx) +
              wy.z * ibl_row(start + 2 * width, x0, width, wx) +
@@ -43,10 +44,14 @@ vec3 ibl_level_at(int level, vec2 uv) {
   return max(sum, vec3(0.0));
 }
 
-vec3 ibl_level_towards(int level, vec3 d) {
+vec3 ibl_towards(ivec2 level, vec3 d) {
   float u = 0.5 + atan(d.x, -d.z) / (2.0 * PI) + u_env_rotate;
   float v = atan(length(d.xz), d.y) / PI;
   return u_env_scale * ibl_level_at(level, vec2(u, v));
+}
+
+vec3 ibl_level_towards(int level, vec3 d) {
+  return ibl_towards(ivec2(IBL_START[level], IBL_WIDTH[level]), d);
 }
 
 // True irradiance on a surface of unit normal n.
@@ -54,9 +59,14 @@ vec3 ambient_irradiance(vec3 n) {
   return ibl_level_towards(IBL_LEVELS, n);
 }
 
-// The mean radiance around direction d under a lobe of that roughness.
+// The mean radiance around direction d under a lobe of that roughness; where
+// that is known beforehand, without a look at the list.
 vec3 ambient_radiance(vec3 d, float roughness) {
-#if IBL_LEVELS > 0
+#if defined(GLOSS_SHARP)
+  return env_seen(d);
+#elif defined(GLOSS_LEVEL)
+  return ibl_towards(at_gloss, d);
+#elif IBL_LEVELS > 0
   if (!(roughness > 0.0)) return env_seen(d);
   float first = IBL_ROUGHNESS[0];
   if (roughness < first) {

@@ -1,9 +1,6 @@
 // matter.glsl — a material at a point, its textures looked up: the twin of
 // matter.c.  MAP_KD and so on say which textures there are.
 
-in vec2 at_texcoord;
-in vec3 at_color;
-
 uniform vec3 u_kd, u_ks, u_ke, u_tf;
 uniform float u_ns, u_ni, u_d, u_roughness, u_metallic;
 uniform sampler2D u_map_kd, u_map_ks, u_map_ke, u_map_ns, u_map_d;

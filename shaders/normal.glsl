@@ -1,10 +1,5 @@
 // normal.glsl — the shading normal: the twin of surface_normal.c.
 
-in vec3 at_position;     // world space, about the middle of the scene
-in vec3 at_normal;       // interpolated
-flat in vec3 at_facet;   // unit, by the winding
-flat in float at_curved; // 1 where the triangle stands for something round
-
 // n made unit, or, where it leans too far from the facet's normal, as near to
 // it as is allowed.
 vec3 normal_lean(vec3 n, vec3 ng) {

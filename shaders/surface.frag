@@ -6,7 +6,7 @@ out vec4 out_color;
 
 void main() {
   vec3 wo = normalize(u_eye - at_position);
-  float side = gl_FrontFacing ? 1.0 : -1.0;
+  float side = at_front ? 1.0 : -1.0;
   vec3 ng = side * at_facet, n = normal_face(side * normal_at(), wo);
   matter m = matter_at();
   vec3 sum = matter_ambient(m, n, wo);
@@ -18,10 +18,10 @@ void main() {
       sum += f * power * light_reaches(i, at_position, ng);
   }
 #endif
-#ifdef KIND_METAL_ROUGH
+#ifdef CLEAR
   vec3 through = min(m.tf, vec3(1.0));
   sum = mix(sum, glass_seen(m, n, wo, m.kd), through);
 #endif
-  if (gl_FrontFacing) sum += matter_emission();
+  if (at_front) sum += matter_emission();
   out_color = vec4(sum, matter_opacity());
 }

@@ -3,17 +3,12 @@
 #include "raster_env.h"
 
 #include "gl_make.h"
+#include "raster_program.h"
 
 #include <string.h>
 
 // Texels in a row of the texture: IBL_ROW of ibl.glsl.
 enum { ENV_ROW = 2048 };
-
-// The roughness whose lobe is as wide as that of a Blinn-Phong exponent, as
-// blinn_phong.glsl has it.
-static float phong_roughness(float ns) {
-  return sqrtf(sqrtf(2 / (ns + 2)));
-}
 
 ibl_need raster_env_need(const scene *s, pbr_model model, bool any,
                          arena *mem) {
@@ -30,7 +25,7 @@ ibl_need raster_env_need(const scene *s, pbr_model model, bool any,
     if (!rough && !phong) continue;
     const texture_map *map = rough ? &m->map_pr : &m->map_ns;
     if (map->image != NULL) need.all = true;
-    float r = rough ? m->roughness : phong_roughness(m->ns);
+    float r = raster_roughness(m->kind, m);
     bool known = false;
     for (int k = 0; k < need.count; k++)
       known |= list[k] == r;
@@ -84,7 +79,14 @@ raster_env raster_env_new(const gl *g, const ibl *made, arena *mem) {
                           .pixels = texels,
                           .wrap_s = GL_CLAMP_TO_EDGE,
                           .wrap_t = GL_CLAMP_TO_EDGE};
-  raster_env r = {gl_texture_new(g, &spec), env_defines(made, mem)};
+  raster_env r = {.texture = gl_texture_new(g, &spec),
+                  .defines = env_defines(made, mem),
+                  .level_count = made->level_count};
+  for (int i = 0, start = 0; i < made->level_count; i++) {
+    const ibl_level *l = &made->level[i];
+    r.level[i] = (raster_env_level){l->roughness, start, l->width};
+    start += (int)ibl_level_texels(l);
+  }
   arena_free(&once);
   return r;
 }
@@ -92,6 +94,20 @@ raster_env raster_env_new(const gl *g, const ibl *made, arena *mem) {
 void raster_env_free(const gl *g, raster_env *r) {
   gl_functions(g)->DeleteTextures(1, &r->texture);
   r->texture = 0;
+}
+
+// The level of exactly that roughness, or the last for all beyond.
+static bool level_of(const void *context, float roughness, int place[2]) {
+  const raster_env *r = context;
+  for (int i = 0; i < r->level_count; i++) {
+    const raster_env_level *l = &r->level[i];
+    bool last = i + 1 == r->level_count && roughness >= l->roughness;
+    if (roughness != l->roughness && !last) continue;
+    place[0] = l->start;
+    place[1] = l->width;
+    return true;
+  }
+  return false;
 }
 
 static void bind_levels(const void *context, const gl *g, unsigned program,
@@ -105,6 +121,7 @@ static void bind_levels(const void *context, const gl *g, unsigned program,
 raster_piece raster_env_piece(const raster_env *r) {
   return (raster_piece){.shaders = {"ibl.glsl"},
                         .defines = r->defines,
+                        .level = level_of,
                         .bind = bind_levels,
                         .context = r};
 }

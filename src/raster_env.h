@@ -8,10 +8,18 @@
 #include "raster_settings.h"
 #include "scene.h"
 
+// Where a level lies in the texture: its first texel, and how many make a row.
+typedef struct raster_env_level {
+  float roughness;
+  int start, width;
+} raster_env_level;
+
 // Prepared light in a context.
 typedef struct raster_env {
   unsigned texture;
   const char *defines;
+  raster_env_level level[IBL_MAX_LEVELS];
+  int level_count;
 } raster_env;
 
 // What the materials of a scene ask for.  Roughness that comes from a texture,

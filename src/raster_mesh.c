@@ -5,12 +5,17 @@
 #include <stddef.h>
 #include <stdlib.h>
 
-// What the vertex shader gets.
+// What the shaders get, by fours: texture coordinates and the material's number
+// fill the fourth places.
 typedef struct vertex {
-  vec3 position, normal, facet;
+  vec3 position;
   float curved;  // 1 where the normals say that the triangle is no facet
-  vec2 texcoord;
+  vec3 normal;
+  float u;
+  vec3 facet;
+  float v;
   vec3 color;
+  float material;
 } vertex;
 
 // The unit normal by the winding, in double as in the path engine; +z where
@@ -71,7 +76,9 @@ static bool vertices_of(vertex v[3], const mesh *m, size_t triangle,
     uint32_t t = m->texcoord_index == NULL
                      ? MESH_NONE
                      : m->texcoord_index[3 * triangle + i];
-    if (t != MESH_NONE) v[i].texcoord = m->texcoords[t];
+    if (t == MESH_NONE) continue;
+    v[i].u = m->texcoords[t].x;
+    v[i].v = m->texcoords[t].y;
   }
   for (size_t i = 0; i < 3; i++)
     v[i].facet = facet_normal(p);
@@ -121,24 +128,22 @@ static void fill_parts(raster_mesh *out, vertex *all, const scene *s) {
     raster_part *part = &out->parts[of];
     size_t at = (size_t)part->first + (size_t)part->count;
     if (!vertices_of(all + at, &s->mesh, t, out->origin)) continue;
+    for (size_t i = 0; i < 3; i++)
+      all[at + i].material = (float)of;
     part->count += 3;
     if (lets_through(s, of)) add_sheet(out, all + at, (uint32_t)at, of);
   }
 }
 
-static void describe_attribute(const gl_api *f, GLuint number, GLint floats,
-                               size_t offset) {
-  f->EnableVertexAttribArray(number);
-  f->VertexAttribPointer(number, floats, GL_FLOAT, GL_FALSE, sizeof(vertex),
-                         (const void *)(uintptr_t)offset);
-}
-
 static void describe_vertices(const gl_api *f) {
-  describe_attribute(f, 0, 3, offsetof(vertex, position));
-  describe_attribute(f, 1, 3, offsetof(vertex, normal));
-  describe_attribute(f, 2, 4, offsetof(vertex, facet));
-  describe_attribute(f, 3, 2, offsetof(vertex, texcoord));
-  describe_attribute(f, 4, 3, offsetof(vertex, color));
+  const size_t offsets[] = {offsetof(vertex, position),
+                            offsetof(vertex, normal), offsetof(vertex, facet),
+                            offsetof(vertex, color)};
+  for (GLuint i = 0; i < 4; i++) {
+    f->EnableVertexAttribArray(i);
+    f->VertexAttribPointer(i, 4, GL_FLOAT, GL_FALSE, sizeof(vertex),
+                           (const void *)(uintptr_t)offsets[i]);
+  }
 }
 
 void raster_mesh_upload(raster_mesh *out, const gl *g, const scene *s,

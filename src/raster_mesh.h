@@ -32,8 +32,9 @@ typedef struct raster_mesh {
   uint32_t *sheet_index;  // room for their vertices
 } raster_mesh;
 
-// The vertex attributes, in order, as glsl_spec.attributes wants them.
-#define RASTER_ATTRIBUTES "in_position in_normal in_facet in_texcoord in_color"
+// The vertex attributes, in order, as glsl_spec.attributes wants them: four
+// floats each.  Read as a list of RGBA texels, the buffer has four a vertex.
+#define RASTER_ATTRIBUTES "in_position in_normal in_facet in_color"
 
 void raster_mesh_upload(raster_mesh *out, const gl *g, const scene *s,
                         arena *mem);

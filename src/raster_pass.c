@@ -114,6 +114,18 @@ static void set_maps(const raster_stock *r, GLuint program, size_t which) {
   raster_set1(r->g, program, "u_bump", m->map_bump.options.bump);
 }
 
+// Where the environment lies that the material sees.
+static void set_gloss(const raster_stock *r, GLuint program, size_t which) {
+  const gl_api *f = gl_functions(r->g);
+  const raster_piece *from = &r->set.ambient;
+  const material *m = &r->materials[which];
+  int place[2] = {0, 0};
+  if (from->level == NULL) return;
+  float roughness = raster_roughness(raster_kind(&r->set, m), m);
+  from->level(from->context, roughness, place);
+  f->Uniform2i(f->GetUniformLocation(program, "u_gloss"), place[0], place[1]);
+}
+
 static void set_material(const raster_stock *r, GLuint program, size_t which) {
   const material *m = &r->materials[which];
   raster_set3(r->g, program, "u_kd", m->kd);
@@ -125,6 +137,7 @@ static void set_material(const raster_stock *r, GLuint program, size_t which) {
   raster_set1(r->g, program, "u_d", m->passes ? m->d : 1);
   raster_set1(r->g, program, "u_roughness", m->roughness);
   raster_set1(r->g, program, "u_metallic", m->metallic);
+  set_gloss(r, program, which);
   set_maps(r, program, which);
 }
 

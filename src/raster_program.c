@@ -18,6 +18,28 @@ material_kind raster_kind(const raster_settings *set, const material *m) {
   return m->kind;
 }
 
+float raster_roughness(material_kind kind, const material *m) {
+  if (kind == MATERIAL_METAL_ROUGH) return m->roughness;
+  if (kind == MATERIAL_BLINN_PHONG) return sqrtf(sqrtf(2 / (m->ns + 2)));
+  return 0;
+}
+
+// What the program may take for granted of the gloss.
+static raster_gloss gloss_of(const raster_settings *set, material_kind kind,
+                             const material *m) {
+  const raster_piece *from = &set->ambient;
+  bool rough = kind == MATERIAL_METAL_ROUGH;
+  bool phong = kind == MATERIAL_BLINN_PHONG;
+  if ((rough && m->map_pr.image != NULL) || (phong && m->map_ns.image != NULL))
+    return RASTER_GLOSS_ANY;
+  float roughness = raster_roughness(kind, m);
+  int place[2];
+  if (!(roughness > 0)) return RASTER_GLOSS_SHARP;
+  return from->level != NULL && from->level(from->context, roughness, place)
+             ? RASTER_GLOSS_LEVEL
+             : RASTER_GLOSS_ANY;
+}
+
 raster_variant raster_variant_of(const raster_settings *set, const material *m,
                                  raster_shading shading) {
   raster_variant v = {.stage = RASTER_STAGE_SURFACE,
@@ -25,6 +47,9 @@ raster_variant raster_variant_of(const raster_settings *set, const material *m,
                       .shading = shading};
   for (int k = 0; k < RASTER_MAP_COUNT; k++)
     if (raster_map_of(m, k)->image != NULL) v.maps |= 1u << k;
+  if (shading != RASTER_RADIANCE) return v;
+  v.gloss = gloss_of(set, v.kind, m);
+  v.clear = v.kind == MATERIAL_METAL_ROUGH && vec3_peak(m->tf) > 0;
   return v;
 }
 
@@ -46,6 +71,13 @@ static const char *or_nothing(const char *text) {
   return text == NULL ? "" : text;
 }
 
+// The define of what is known of the gloss.
+static const char *const GLOSS_DEFINES[] = {
+    [RASTER_GLOSS_ANY] = "",
+    [RASTER_GLOSS_SHARP] = "#define GLOSS_SHARP\n",
+    [RASTER_GLOSS_LEVEL] = "#define GLOSS_LEVEL\n",
+};
+
 // All the #define lines of a variant.
 static char *defines_of(const raster_programs *p, raster_variant v,
                         arena *mem) {
@@ -53,10 +85,11 @@ static char *defines_of(const raster_programs *p, raster_variant v,
   char *text = arena_format(
       mem,
       "#define LIGHTS %zu\n#define ENV_KIND %d\n#define FIRST %d\n"
-      "#define SKY_DEPTH %s\n#define SHADOW_DEPTH(z) %s\n%s%s%s%s",
+      "#define SKY_DEPTH %s\n#define SHADOW_DEPTH(z) %s\n%s%s%s%s%s%s",
       set->lights ? p->lights : 0, (int)p->env, (int)v.shading,
       p->clip_control ? "0.0" : "1.0",
       p->clip_control ? "(z)" : "(0.5 + 0.5 * (z))", KIND_DEFINES[v.kind],
+      GLOSS_DEFINES[v.gloss], v.clear ? "#define CLEAR\n" : "",
       set->model == RASTER_REPORT ? "#define MODEL_REPORT\n" : "",
       or_nothing(set->ambient.defines), or_nothing(set->metal_rough.defines));
   if (p->shadow_layers > 0 && set->lights)
@@ -100,6 +133,7 @@ static void surface_parts(glsl_spec *spec, const raster_programs *p,
   const char **parts = spec->fragment;
   spec->vertex[0] = "surface.vert";
   add_part(parts, "num.glsl");
+  add_part(parts, "at.glsl");
   add_part(parts, "env.glsl");
   add_piece(parts, &p->set->ambient, "ambient.glsl");
   add_part(parts, "matter.glsl");
@@ -135,6 +169,7 @@ static glsl_spec parts_of(const raster_programs *p, raster_variant v) {
   case RASTER_STAGE_SHADOW_SHEET:
     spec.vertex[0] = "surface.vert";
     add_part(spec.fragment, "num.glsl");
+    add_part(spec.fragment, "at.glsl");
     add_part(spec.fragment, "matter.glsl");
     add_part(spec.fragment, "shadow_sheet.frag");
     break;
@@ -144,7 +179,7 @@ static glsl_spec parts_of(const raster_programs *p, raster_variant v) {
 
 static bool same_variant(raster_variant a, raster_variant b) {
   return a.stage == b.stage && a.kind == b.kind && a.shading == b.shading &&
-         a.maps == b.maps;
+         a.maps == b.maps && a.gloss == b.gloss && a.clear == b.clear;
 }
 
 bool raster_program_get(GLuint *out, raster_programs *p, raster_variant v,

@@ -16,12 +16,22 @@ typedef enum raster_stage {
   RASTER_STAGE_SHADOW_SHEET  // where its opacity is at least a half
 } raster_stage;
 
+// What is known of a surface's gloss when its program is made: nothing, that
+// it is sharp, or that it is a whole level of the environment.
+typedef enum raster_gloss {
+  RASTER_GLOSS_ANY,
+  RASTER_GLOSS_SHARP,
+  RASTER_GLOSS_LEVEL
+} raster_gloss;
+
 // All that tells one program from another in one scene.
 typedef struct raster_variant {
   raster_stage stage;
   material_kind kind;
   raster_shading shading;
   unsigned maps;  // bit k: the material has texture k of raster_maps.h
+  raster_gloss gloss;
+  bool clear;  // metallic-roughness that lets light through
 } raster_variant;
 
 typedef struct raster_entry {
@@ -53,6 +63,10 @@ void raster_programs_free(raster_programs *p);
 
 // How a material is drawn under --shading blinn-phong or pbr.
 material_kind raster_kind(const raster_settings *set, const material *m);
+
+// The roughness under which a surface sees the environment, textures aside: a
+// Blinn-Phong highlight has one whose lobe is as wide, alpha^2 = 2 / (n + 2).
+float raster_roughness(material_kind kind, const material *m);
 
 // The variant that draws a material's radiance or whatever else is asked for.
 raster_variant raster_variant_of(const raster_settings *set, const material *m,

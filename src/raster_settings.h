@@ -23,6 +23,9 @@ typedef enum raster_model { RASTER_GGX, RASTER_REPORT } raster_model;
 typedef struct raster_piece {
   const char *shaders[4];  // files of shaders/, NULL at the end
   const char *defines;     // lines for every shader, or NULL
+  // Of an environment: whether light under a lobe of that roughness is a whole
+  // level, and then that level's first texel and width.  May be NULL.
+  bool (*level)(const void *context, float roughness, int place[2]);
   // Bind textures to units first_unit, first_unit + 1, ... and set uniforms
   // of the program, which is in use.  Called before each material is drawn.
   void (*bind)(const void *context, const gl *g, unsigned program,
