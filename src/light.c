@@ -67,7 +67,11 @@ static float share_of(float weight, float sum, int kinds) {
              : 0;
 }
 
+// Nothing needs to be weighed where all lights are of one kind.
 static shares shares_at(const light_set *l, const light_place *at) {
+  bool sky = l->env.irradiance > 0;
+  if (l->far_count == 0 && !sky) return (shares){.near = 1};
+  if (l->far_count == 0 && l->near.count == 0) return (shares){.env = 1};
   shares s = {.near = light_tree_bound(&l->near, at), .env = l->env.irradiance};
   for (size_t i = 0; i < l->far_count; i++)
     s.far_sum += far_weight(&l->far[i], at);

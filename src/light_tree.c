@@ -13,13 +13,21 @@ static float leaf_bounds(const light_tree *t, const light_node *leaf,
   return sum;
 }
 
+// The same of any node: leaves know better than their group.
+static float node_bound(const light_tree *t, const light_node *k,
+                        const light_place *at) {
+  float each[LIGHT_LEAF];
+  if (k->count == 0) return light_bound_group(&k->group, at);
+  return leaf_bounds(t, k, at, each);
+}
+
 float light_tree_bound(const light_tree *t, const light_place *at) {
   if (t->count == 0) return 0;
   float each[LIGHT_LEAF];
   const light_node *root = &t->nodes[0];
   if (root->count > 0) return leaf_bounds(t, root, at, each);
-  return light_bound_group(&t->nodes[root->first].group, at) +
-         light_bound_group(&t->nodes[root->first + 1].group, at);
+  return node_bound(t, &t->nodes[root->first], at) +
+         node_bound(t, &t->nodes[root->first + 1], at);
 }
 
 // One of n by weights whose sum is given; *u becomes uniform again and *share
@@ -48,8 +56,8 @@ bool light_tree_pick(const light_tree *t, const light_place *at, double u,
   *share = 1;
   while (k->count == 0) {
     const light_node *child = &t->nodes[k->first];
-    weights[0] = light_bound_group(&child[0].group, at);
-    weights[1] = light_bound_group(&child[1].group, at);
+    weights[0] = node_bound(t, &child[0], at);
+    weights[1] = node_bound(t, &child[1], at);
     sum = weights[0] + weights[1];
     if (!(sum > 0 && sum < INFINITY)) return false;
     k = &child[choose(weights, 2, sum, &u, share)];
@@ -70,8 +78,8 @@ float light_tree_share(const light_tree *t, const light_place *at,
   float share = each[emitter - leaf->first] / sum;
   while (node != 0 && share > 0) {
     uint32_t left = t->nodes[t->nodes[node].parent].first;
-    float a = light_bound_group(&t->nodes[left].group, at);
-    float b = light_bound_group(&t->nodes[left + 1].group, at);
+    float a = node_bound(t, &t->nodes[left], at);
+    float b = node_bound(t, &t->nodes[left + 1], at);
     if (!(a + b > 0 && a + b < INFINITY)) return 0;
     share *= (node == left ? a : b) / (a + b);
     node = t->nodes[node].parent;
