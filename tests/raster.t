@@ -140,7 +140,7 @@ agree() { # TITLE OBJ SHARE, then options
   title=$1 scene=$2 share=$3
   shift 3
   "$facet" render -q "$scene" --msaa 1 -o raster.pfm "$@"
-  "$facet" render -q "$scene" --engine path --max-depth 2 --spp 16 -o path.pfm "$@"
+  "$facet" render -q "$scene" --engine path --integrator naive --max-depth 2 --spp 16 -o path.pfm "$@"
   ok "$title: both engines agree" python3 - "$share" <<'END'
 import array, sys
 def pfm(path):
