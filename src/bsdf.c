@@ -106,7 +106,7 @@ static vec3 sample_blinn_phong(float n, vec3 wo, float u1, float u2) {
   vec2 c = num_circle(u1);
   float sin2 = one_minus_power(1 - u2, 2 / (n + 1));
   float r = sqrtf(sin2);
-  vec3 h = {r * c.x, r * c.y, sqrtf(fmaxf(0, 1 - sin2))};
+  vec3 h = {r * c.x, r * c.y, sqrtf(float_max(0, 1 - sin2))};
   return vec3_sub(vec3_scale(h, 2 * vec3_dot(wo, h)), wo);
 }
 
@@ -145,7 +145,8 @@ static bool sample_mirror(const bsdf *b, vec3 wo, bsdf_sample *out) {
 static bool sample_glass(const bsdf *b, vec3 wo, float u, bsdf_sample *out) {
   float eta = wo.z >= 0 ? b->eta : 1 / b->eta;
   float cos_t;
-  float reflectance = fresnel_dielectric(fminf(fabsf(wo.z), 1), eta, &cos_t);
+  float reflectance =
+      fresnel_dielectric(float_min(fabsf(wo.z), 1), eta, &cos_t);
   *out = (bsdf_sample){.delta = true};
   if (u < reflectance) {
     out->wi = (vec3){-wo.x, -wo.y, wo.z};

@@ -40,7 +40,7 @@ static float lobe_share(const bsdf_rough *b, vec3 wo) {
   vec3 f0 = b->terms.f0, kd = b->terms.kd;
   float specular = albedo_at(b, (f0.x + f0.y + f0.z) / 3, wo.z);
   float rest = 1 - albedo_at(b, DIELECTRIC_F0, wo.z);
-  float diffuse = (kd.x + kd.y + kd.z) / 3 * fmaxf(rest, 0);
+  float diffuse = (kd.x + kd.y + kd.z) / 3 * float_max(rest, 0);
   return specular / (specular + diffuse);
 }
 
@@ -84,10 +84,10 @@ vec3 ggx_visible_normal(vec3 wo, float alpha, float u1, float u2) {
   vec3 b = vec3_cross(v, t);
   vec2 circle = num_circle(u2);
   float r = sqrtf(u1), x = r * circle.x, share = 0.5f * (1 + v.z);
-  float y = (1 - share) * sqrtf(fmaxf(0, 1 - x * x)) + share * r * circle.y;
-  float z = sqrtf(fmaxf(0, 1 - x * x - y * y));
+  float y = (1 - share) * sqrtf(float_max(0, 1 - x * x)) + share * r * circle.y;
+  float z = sqrtf(float_max(0, 1 - x * x - y * y));
   vec3 n = vec3_mad(vec3_mad(vec3_scale(t, x), y, b), z, v);
-  return vec3_unit((vec3){alpha * n.x, alpha * n.y, fmaxf(n.z, 0)});
+  return vec3_unit((vec3){alpha * n.x, alpha * n.y, float_max(n.z, 0)});
 }
 
 // f wi.z / pdf.  D, the one factor that may be huge and inexact, is in both

@@ -225,7 +225,7 @@ static dfg_pair dfg_mix(dfg_pair a, dfg_pair b, float t) {
 
 // Where x in [0, 1] lies between n nodes: its cell, and the place in it.
 static int dfg_cell(float x, int n, float *t) {
-  float at = fminf(fmaxf(x, 0), 1) * (float)(n - 1);
+  float at = float_min(float_max(x, 0), 1) * (float)(n - 1);
   int i = (int)at < n - 2 ? (int)at : n - 2;
   *t = at - (float)i;
   return i;
@@ -233,14 +233,14 @@ static int dfg_cell(float x, int n, float *t) {
 
 dfg_pair dfg_lookup(const dfg *d, float nv, float roughness) {
   float tx, ty;
-  int x = dfg_cell(sqrtf(fmaxf(nv, 0)), DFG_COLUMNS, &tx);
-  int y = dfg_cell(sqrtf(fmaxf(roughness, 0)), DFG_ROWS, &ty);
+  int x = dfg_cell(sqrtf(float_max(nv, 0)), DFG_COLUMNS, &tx);
+  int y = dfg_cell(sqrtf(float_max(roughness, 0)), DFG_ROWS, &ty);
   const dfg_pair *a = d->table + y * DFG_COLUMNS + x, *b = a + DFG_COLUMNS;
   return dfg_mix(dfg_mix(a[0], a[1], tx), dfg_mix(b[0], b[1], tx), ty);
 }
 
 dfg_pair dfg_lookup_mean(const dfg *d, float roughness) {
   float t;
-  int y = dfg_cell(sqrtf(fmaxf(roughness, 0)), DFG_ROWS, &t);
+  int y = dfg_cell(sqrtf(float_max(roughness, 0)), DFG_ROWS, &t);
   return dfg_mix(d->mean[y], d->mean[y + 1], t);
 }

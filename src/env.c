@@ -26,10 +26,10 @@ static float squared_times(float x, int n) {
 
 // Polynomials in the height d.y and in the cosine to the sun.
 static vec3 sky_radiance(vec3 d) {
-  float h = fminf(fmaxf(d.y, -1), 1);
+  float h = float_min(float_max(d.y, -1), 1);
   vec3 far = h >= 0 ? SKY_ZENITH : SKY_GROUND;
   float haze = h >= 0 ? squared_times(1 - h, 2) : squared_times(1 + h, 4);
-  float c = fminf(fmaxf(vec3_dot(d, SKY_SUN_AT), 0), 1);
+  float c = float_min(float_max(vec3_dot(d, SKY_SUN_AT), 0), 1);
   return vec3_mad(vec3_lerp(far, SKY_HORIZON, haze), squared_times(c, 4),
                   SKY_SUN);
 }

@@ -30,7 +30,7 @@ float matter_opacity(const surface *s) {
   const material *m = material_at(s);
   float d = m->d;
   if (m->map_d.image != NULL) d *= texture_alpha(&m->map_d, s->uv);
-  return fminf(fmaxf(d, 0), 1);
+  return float_min(float_max(d, 0), 1);
 }
 
 vec3 matter_emission(const surface *s) {
@@ -91,7 +91,7 @@ static matter metal_rough(const dfg *table, const surface *s, float cos_o,
   const material *m = material_at(s);
   vec3 c = base_color(s), weight = vec3_all(1);
   layers glass = {m->tf, vec3_sub(vec3_all(1), m->tf), 0};
-  glass.p = fminf(vec3_peak(m->tf), 1);
+  glass.p = float_min(vec3_peak(m->tf), 1);
   if (glass.p > 0 && take_first(&glass, &u, &weight)) {
     vec3 tint = {sqrtf(c.x), sqrtf(c.y), sqrtf(c.z)};
     return (matter){glass_of(m->ni, tint), weight};
@@ -103,7 +103,8 @@ static matter metal_rough(const dfg *table, const surface *s, float cos_o,
   if (b.rough.terms.alpha >= ALPHA_MIN) return (matter){b, weight};
   vec3 coat = fresnel_schlick(b.rough.terms.f0, cos_o);
   bool ground = vec3_peak(b.rough.terms.kd) > 0;
-  layers smooth = {coat, vec3_all(1), ground ? fminf(vec3_peak(coat), 1) : 1};
+  layers smooth = {coat, vec3_all(1),
+                   ground ? float_min(vec3_peak(coat), 1) : 1};
   if (take_first(&smooth, &u, &weight))
     b = (bsdf){.kind = BSDF_MIRROR, .ks = vec3_all(1)};
   return (matter){b, weight};
@@ -114,7 +115,7 @@ static matter metal_rough(const dfg *table, const surface *s, float cos_o,
 static matter blinn_phong(const surface *s) {
   const material *m = material_at(s);
   vec3 kd = base_color(s), ks = textured(m->ks, &m->map_ks, s->uv);
-  float down = 1 / fmaxf(1, vec3_peak(vec3_add(kd, ks)));
+  float down = 1 / float_max(1, vec3_peak(vec3_add(kd, ks)));
   bsdf b = {.kind = BSDF_LAMBERT, .kd = vec3_scale(kd, down)};
   if (!(vec3_peak(ks) > 0)) return whole(b);
   b.kind = BSDF_BLINN_PHONG;

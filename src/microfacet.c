@@ -9,7 +9,7 @@ half_angles half_angles_of(vec3 n, vec3 wo, vec3 wi) {
   vec3 across = vec3_cross(n, h);
   a.nh = vec3_dot(n, h);
   a.t = vec3_dot(across, across);
-  a.oh = fminf(0.5f * vec3_length(sum), 1);
+  a.oh = float_min(0.5f * vec3_length(sum), 1);
   return a;
 }
 
@@ -34,16 +34,16 @@ static float smith_root(float c, float alpha) {
 
 float ggx_v(float nl, float nv, float alpha) {
   float sum = nl * smith_root(nv, alpha) + nv * smith_root(nl, alpha);
-  return 0.5f / fmaxf(sum, V_DENOMINATOR_MIN);
+  return 0.5f / float_max(sum, V_DENOMINATOR_MIN);
 }
 
 float ggx_g1_over_4nv(float nv, float alpha) {
-  return 0.5f / fmaxf(nv + smith_root(nv, alpha), V_DENOMINATOR_MIN);
+  return 0.5f / float_max(nv + smith_root(nv, alpha), V_DENOMINATOR_MIN);
 }
 
 float schlick_v(float nl, float nv, float k) {
   float product = (nl * (1 - k) + k) * (nv * (1 - k) + k);
-  return 0.25f / fmaxf(product, V_DENOMINATOR_MIN);
+  return 0.25f / float_max(product, V_DENOMINATOR_MIN);
 }
 
 float schlick_k_point(float roughness) {

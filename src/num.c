@@ -111,7 +111,7 @@ float num_turns(float y, float x) {
 }
 
 float num_acos_pi(float x) {
-  x = fminf(fmaxf(x, -1), 1);
+  x = float_min(float_max(x, -1), 1);
   // cos a = x gives tan(a / 2) = sqrt((1 - x) / (1 + x)), well behaved at 1.
   return 4 * num_turns(sqrtf(1 - x), sqrtf(1 + x));
 }

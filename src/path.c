@@ -155,7 +155,7 @@ static bool scatter(path *p, const vertex *v, const bsdf *b, ray *r) {
 // Russian roulette.
 static bool survives(path *p) {
   float q = vec3_peak(p->throughput) / PLAY_BELOW;
-  q = fminf(q, p->segment < ENDLESS_FROM ? 1 : ENDLESS_SURVIVAL);
+  q = float_min(q, p->segment < ENDLESS_FROM ? 1 : ENDLESS_SURVIVAL);
   if (q >= 1) return true;
   if (draw(p, USE_LIFE) >= q) return false;
   p->throughput = vec3_scale(p->throughput, 1 / q);

@@ -73,7 +73,7 @@ static bool scatter(walk *k, const vertex *v, const bsdf *b) {
 // the survivors stand for the ended ones.
 static bool survives(walk *k, int segment) {
   float q = vec3_peak(k->throughput) / ROULETTE_BELOW;
-  q = fminf(q, segment < LOSSLESS_FROM ? 1 : LOSSLESS_SURVIVAL);
+  q = float_min(q, segment < LOSSLESS_FROM ? 1 : LOSSLESS_SURVIVAL);
   if (q >= 1) return true;
   if (rng_next(k->random) >= q) return false;
   k->throughput = vec3_scale(k->throughput, 1 / q);

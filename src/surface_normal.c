@@ -29,7 +29,7 @@ vec3 surface_lean(vec3 n, vec3 ng) {
 vec3 surface_bend(vec3 ns, vec3 ng, vec3 wo) {
   float a = vec3_dot(wo, ns), b = vec3_dot(wo, ng), c = vec3_dot(ns, ng);
   if (!(b > 0)) return ng;
-  float t = fminf(0.5f * b, CLEARANCE);
+  float t = float_min(0.5f * b, CLEARANCE);
   float last = 2 * a * c - b - t;
   if (last >= 0) return ns;
   float half = a - c * t;

@@ -100,7 +100,7 @@ typedef struct footprint {
 // the share of the second.
 static float texel_pair(float x, int n, bool clamp, int pair[2]) {
   if (!isfinite(x)) x = 0;
-  x = clamp ? fminf(fmaxf(x, 0), 1) : x - floorf(x);
+  x = clamp ? float_min(float_max(x, 0), 1) : x - floorf(x);
   float at = x * (float)n - 0.5f, lower = floorf(at);
   int i = (int)lower;
   pair[0] = i >= 0 ? i : clamp ? 0 : n - 1;

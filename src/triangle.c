@@ -72,7 +72,7 @@ static bool hit_in_double(const sheared *c, float t_b1_b2[3]) {
 
 // The largest magnitude of three.
 static inline float peak_of(const float v[3]) {
-  return fmaxf(fabsf(v[0]), fmaxf(fabsf(v[1]), fabsf(v[2])));
+  return float_max(fabsf(v[0]), float_max(fabsf(v[1]), fabsf(v[2])));
 }
 
 // A bound on the error of t as computed in float.  Source: Pharr, Jakob,
@@ -109,7 +109,7 @@ static float t_near_zero(const ray *r, const vec3 p[3], float t, float error) {
   if (!(fabs(side) > bound)) return 0;
   double speed =
       nx * (double)r->d.x + ny * (double)r->d.y + nz * (double)r->d.z;
-  return fminf(fmaxf((float)(side / speed), t - error), t + error);
+  return float_min(float_max((float)(side / speed), t - error), t + error);
 }
 
 bool triangle_hit(const ray *r, const ray_shear *s, vec3 p0, vec3 p1, vec3 p2,

@@ -10,6 +10,16 @@
 
 #define PI 3.14159265f
 
+// fmaxf and fminf, which compilers call from a library because they need not
+// trust that no number is a NaN: a number beside a NaN wins.
+static inline float float_max(float a, float b) {
+  return a > b || b != b ? a : b;
+}
+
+static inline float float_min(float a, float b) {
+  return a < b || b != b ? a : b;
+}
+
 // Three floats: a point or direction in world units, or linear RGB.
 typedef struct vec3 {
   float x, y, z;
@@ -69,21 +79,29 @@ static inline float vec3_length(vec3 a) {
   return sqrtf(vec3_dot(a, a));
 }
 
-// a / |a|, or a itself when its length is 0 or not finite.  Scaled first, so
-// that neither 1e-30 nor 1e30 loses its direction to a square.
-static inline vec3 vec3_unit(vec3 a) {
-  float m = fmaxf(fabsf(a.x), fmaxf(fabsf(a.y), fabsf(a.z)));
+// vec3_unit of a vector whose square leaves the range of a float: scaled first,
+// so that neither 1e-30 nor 1e30 loses its direction.
+static inline vec3 vec3_unit_scaled(vec3 a) {
+  float m = float_max(fabsf(a.x), float_max(fabsf(a.y), fabsf(a.z)));
   if (!(m > 0) || isinf(m)) return a;
   vec3 s = {a.x / m, a.y / m, a.z / m};
   return vec3_scale(s, 1 / vec3_length(s));
 }
 
+// a / |a|, or a itself when its length is 0 or not finite.
+static inline vec3 vec3_unit(vec3 a) {
+  float square = vec3_dot(a, a);
+  if (square > 0x1p-90f && square < 0x1p120f)
+    return vec3_scale(a, 1 / sqrtf(square));
+  return vec3_unit_scaled(a);
+}
+
 static inline vec3 vec3_min(vec3 a, vec3 b) {
-  return (vec3){fminf(a.x, b.x), fminf(a.y, b.y), fminf(a.z, b.z)};
+  return (vec3){float_min(a.x, b.x), float_min(a.y, b.y), float_min(a.z, b.z)};
 }
 
 static inline vec3 vec3_max(vec3 a, vec3 b) {
-  return (vec3){fmaxf(a.x, b.x), fmaxf(a.y, b.y), fmaxf(a.z, b.z)};
+  return (vec3){float_max(a.x, b.x), float_max(a.y, b.y), float_max(a.z, b.z)};
 }
 
 static inline vec3 vec3_abs(vec3 a) {
@@ -92,7 +110,7 @@ static inline vec3 vec3_abs(vec3 a) {
 
 // The largest component.
 static inline float vec3_peak(vec3 a) {
-  return fmaxf(a.x, fmaxf(a.y, a.z));
+  return float_max(a.x, float_max(a.y, a.z));
 }
 
 // Whether every component is finite.

@@ -42,7 +42,7 @@ static void orient(vertex *v, const bsdf *b) {
 }
 
 matter vertex_matter(vertex *v, const dfg *table, float u) {
-  float cos_o = fminf(fmaxf(vec3_dot(v->ns, v->wo), 0), 1);
+  float cos_o = float_min(float_max(vec3_dot(v->ns, v->wo), 0), 1);
   matter m = matter_choose(table, &v->at, cos_o, u);
   if (!v->at.front && m.bsdf.kind == BSDF_GLASS) m.bsdf.eta = 1 / m.bsdf.eta;
   orient(v, &m.bsdf);
