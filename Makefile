@@ -47,7 +47,8 @@ CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
               light_bound light_tree light_tree_build light_emission light path
 CHAPTER_11 := $(CHAPTER_10)
 CHAPTER_12 := $(CHAPTER_11) simd_base simd_avx2 simd wide_tree wide_levels wide_box wide_leaf \
-             wide_kernel wide_base wide_avx2 wide_avx512 wide
+             wide_kernel wide_base wide_avx2 wide_avx512 wide vertex_many_levels \
+             vertex_many_kernel vertex_many_base vertex_many_avx2 vertex_many_avx512 vertex_many
 CHAPTER_14 := $(CHAPTER_12) post view_state view_script view_paths view_window
 CHAPTER_15 := $(CHAPTER_14) glyph sketch plot
 LIBRARY   := $(CHAPTER_15)
@@ -79,14 +80,18 @@ $(B)/facet: $(call obj,$(MODULES))
 
 $(B)/%.o: %.c Makefile
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) $(CFLAGS) -MMD -MP -c $< -o $@
+	$(CC) $(FLAGS) $(CFLAGS) $(LOOPS) -MMD -MP -c $< -o $@
 
 # One kernel (src/wide_kernel.h) for several sets of instructions; the program
 # asks the processor which it has.
 ifneq (,$(findstring x86_64,$(shell $(CC) -dumpmachine)))
-$(B)/src/wide_avx2.o: FLAGS += -mavx2
-$(B)/src/wide_avx512.o: FLAGS += -mavx2 -mavx512f -mavx512vl -mavx512dq -mavx512bw
+$(B)/src/wide_avx2.o $(B)/src/vertex_many_avx2.o: FLAGS += -mavx2
+$(B)/src/wide_avx512.o $(B)/src/vertex_many_avx512.o: FLAGS += -mavx2 -mavx512f -mavx512vl -mavx512dq -mavx512bw
 endif
+
+# Loops over lanes become vector instructions where nothing else is asked of
+# them: errno and traps.
+$(B)/src/vertex_many_%.o: LOOPS := -O3 -fno-math-errno -fno-trapping-math
 
 # The files of shaders/ as one table of names and texts (src/glsl.h).
 SHADERS := $(wildcard shaders/*.glsl shaders/*.vert shaders/*.frag)

@@ -9,6 +9,7 @@
 #include "clock.h"
 #include "path.h"
 #include "progress.h"
+#include "vertex_many.h"
 
 #include <math.h>
 #include <string.h>
@@ -263,8 +264,11 @@ static void choose_integrator(render_job *j) {
   } else {
     light_set_build(&j->lights, &j->shot.scene, j->world.lights, true,
                     j->shot.mem, j->shot.threads);
-    j->paths = (path_tracer){&j->world, &j->lights,
-                             (sampler_kind)v[OPT_SAMPLER].words, seed};
+    j->paths = (path_tracer){.world = &j->world,
+                             .lights = &j->lights,
+                             .vertices = vertex_many_best(),
+                             .sampler = (sampler_kind)v[OPT_SAMPLER].words,
+                             .seed = seed};
     j->by = path_integrator(&j->paths);
   }
   j->settings.by = &j->by;

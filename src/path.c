@@ -29,7 +29,7 @@ enum {
   USE_LOBE = 5,
   USE_MATTER = 6,
   USE_LIFE = 7,  // opacity, roulette
-  USES = 8
+  USES = 8       // what sampler_8 gives
 };
 
 // A path between two waves.
@@ -40,6 +40,23 @@ typedef struct path {
   float pdf;          // of that direction; 0 where only a delta could give it
   int segment, rays, inside;
 } path;
+
+// A vertex of a path, and the numbers for it.
+typedef struct stop {
+  uint32_t which;
+  vertex *at;
+  float u[USES];
+} stop;
+
+// Rays that have met a surface, and where: few enough for the fastest cache.
+enum { MET = 64 };
+
+typedef struct met {
+  uint32_t which[MET];
+  ray rays[MET];
+  hit hits[MET];
+  vertex at[MET];
+} met;
 
 // A light sample on its way through the scene: what it brings if nothing is in
 // between, to which path; and for sheets, from where to where.
@@ -62,19 +79,9 @@ typedef struct wave {
   hit *hits;
   shadow *shadows;
   bool *blocked;
+  met *met;
   size_t count, next, shadow_count;
 } wave;
-
-// Number `use` of the path's current vertex.
-static float draw(path *p, uint32_t use) {
-  sampler_at(&p->numbers, 2 + USES * (uint32_t)p->rays + use);
-  return sampler_1(&p->numbers);
-}
-
-static vec2 draw_2(path *p, uint32_t use) {
-  sampler_at(&p->numbers, 2 + USES * (uint32_t)p->rays + use);
-  return sampler_2(&p->numbers);
-}
 
 // The weight of a sample of density a where the other way to find it has
 // density b.  Source: Veach 1997, section 9.2.4, the power heuristic.
@@ -113,12 +120,12 @@ static void meet_glow(const wave *w, path *p, const vertex *v) {
 }
 
 // Ask one light what it adds at v, if nothing is in between.
-static void ask_light(wave *w, uint32_t which, path *p, const vertex *v,
-                      const bsdf *b) {
-  vec2 u = draw_2(p, USE_LIGHT);
-  vec3 u3 = {draw(p, USE_PICK), u.x, u.y};
+static void ask_light(wave *w, const stop *s, const bsdf *b) {
+  const vertex *v = s->at;
+  const path *p = &w->paths[s->which];
+  vec3 u = {s->u[USE_PICK], s->u[USE_LIGHT], s->u[USE_LIGHT + 1]};
   light_sample l;
-  if (!light_sample_at(w->by->lights, v->at.p, v->n, u3, &l)) return;
+  if (!light_sample_at(w->by->lights, v->at.p, v->n, u, &l)) return;
   vec3 wi = vertex_local(v, l.wi), wo = vertex_local(v, v->wo);
   if (!(wi.z > 0)) return;
   vec3 f = l.delta ? bsdf_eval_point(b, wo, wi) : bsdf_eval(b, wo, wi);
@@ -130,7 +137,7 @@ static void ask_light(wave *w, uint32_t which, path *p, const vertex *v,
   light_ray to = {.is_point = l.has_end, .to = l.to, .wi = l.wi};
   size_t i = w->shadow_count++;
   w->shadow_rays[i] = light_ray_shadow(&to, &v->at, true);
-  w->shadows[i].path = which;
+  w->shadows[i].path = s->which;
   w->shadows[i].lit = lit;
   if (!w->sheets) return;
   w->shadows[i].to = to;
@@ -138,11 +145,11 @@ static void ask_light(wave *w, uint32_t which, path *p, const vertex *v,
 }
 
 // Go on in a direction sampled from b; false where nothing is scattered.
-static bool scatter(path *p, const vertex *v, const bsdf *b, ray *r) {
-  vec2 u = draw_2(p, USE_DIRECTION);
+static bool scatter(path *p, const stop *s, const bsdf *b, ray *r) {
+  const vertex *v = s->at;
   bsdf_sample d;
-  if (!bsdf_sample_wi(b, vertex_local(v, v->wo), draw(p, USE_LOBE), u.x, u.y,
-                      &d))
+  if (!bsdf_sample_wi(b, vertex_local(v, v->wo), s->u[USE_LOBE],
+                      s->u[USE_DIRECTION], s->u[USE_DIRECTION + 1], &d))
     return false;
   p->throughput = vec3_mul(p->throughput, d.weight);
   p->from = v->at.p;
@@ -153,61 +160,91 @@ static bool scatter(path *p, const vertex *v, const bsdf *b, ray *r) {
 }
 
 // Russian roulette.
-static bool survives(path *p) {
+static bool survives(path *p, float u) {
   float q = vec3_peak(p->throughput) / PLAY_BELOW;
   q = float_min(q, p->segment < ENDLESS_FROM ? 1 : ENDLESS_SURVIVAL);
   if (q >= 1) return true;
-  if (draw(p, USE_LIFE) >= q) return false;
+  if (u >= q) return false;
   p->throughput = vec3_scale(p->throughput, 1 / q);
   return true;
 }
 
-// One bounce at v; false where the path ends.
-static bool bounce(wave *w, uint32_t which, vertex *v, ray *r) {
-  path *p = &w->paths[which];
-  matter m = vertex_matter(v, w->by->world->dfg, draw(p, USE_MATTER));
+// One bounce; false where the path ends.
+static bool bounce(wave *w, stop *s, ray *r) {
+  path *p = &w->paths[s->which];
+  matter m = vertex_matter(s->at, w->by->world->dfg, s->u[USE_MATTER]);
   p->throughput = vec3_mul(p->throughput, m.weight);
-  if (w->lights && !bsdf_is_delta(&m.bsdf)) ask_light(w, which, p, v, &m.bsdf);
-  if (!scatter(p, v, &m.bsdf, r) || !survives(p)) return false;
+  if (w->lights && !bsdf_is_delta(&m.bsdf)) ask_light(w, s, &m.bsdf);
+  if (!scatter(p, s, &m.bsdf, r) || !survives(p, s->u[USE_LIFE])) return false;
   p->segment++;
   return true;
 }
 
-// What becomes of a path at its hit; *r is then its next ray.  False where it
+// What becomes of a path at a vertex; *r is then its next ray.  False where it
 // ends.
-static bool step(wave *w, uint32_t which, const hit *h, ray *r) {
-  path *p = &w->paths[which];
+static bool step(wave *w, stop *s, ray *r) {
+  path *p = &w->paths[s->which];
   const path_world *world = w->by->world;
-  if (h->triangle == HIT_NONE) {
-    meet_sky(w, p, r);
-    return false;
-  }
-  vertex v = vertex_at(world->scene, h, r->d);
+  sampler_8(&p->numbers, 2 + USES * (uint32_t)p->rays, s->u);
   bool goes_on;
-  if (matter_passes(&v.at) && draw(p, USE_LIFE) >= matter_opacity(&v.at)) {
-    *r = surface_ray(&v.at, r->d);
+  if (matter_passes(&s->at->at) &&
+      s->u[USE_LIFE] >= matter_opacity(&s->at->at)) {
+    *r = surface_ray(&s->at->at, r->d);
     goes_on = true;
   } else {
-    if (v.at.front) meet_glow(w, p, &v);
+    if (s->at->at.front) meet_glow(w, p, s->at);
     bool last = world->max_depth > 0 && p->segment >= world->max_depth;
-    goes_on = !last && bounce(w, which, &v, r);
+    goes_on = !last && bounce(w, s, r);
   }
   if (++p->rays < MOST_RAYS) return goes_on;
   w->stats->cut += goes_on;
   return false;
 }
 
+static void vertices_at(const wave *w, size_t n) {
+  const scene *world = w->by->world->scene;
+  const met *m = w->met;
+  if (w->by->vertices != NULL) {
+    w->by->vertices(world, m->hits, m->rays, n, w->met->at);
+    return;
+  }
+  for (size_t i = 0; i < n; i++)
+    w->met->at[i] = vertex_at(world, &m->hits[i], m->rays[i].d);
+}
+
+// Shade n of the paths whose rays have met a surface.
+static void step_some(wave *w, size_t n) {
+  met *m = w->met;
+  vertices_at(w, n);
+  for (size_t i = 0; i < n; i++) {
+    ray r = m->rays[i];
+    stop s = {.which = m->which[i], .at = &m->at[i]};
+    if (!step(w, &s, &r)) continue;
+    w->alive[w->next] = s.which;
+    w->rays[w->next++] = r;
+  }
+}
+
 // One step of every path on its way.
 static void step_all(wave *w) {
+  met *m = w->met;
   tracer_closest_many(&w->by->world->tracer, w->rays, w->hits, w->count);
   w->stats->rays += w->count;
   w->next = w->shadow_count = 0;
+  size_t n = 0;
   for (size_t i = 0; i < w->count; i++) {
-    ray r = w->rays[i];
-    if (!step(w, w->alive[i], &w->hits[i], &r)) continue;
-    w->alive[w->next] = w->alive[i];
-    w->rays[w->next++] = r;
+    if (w->hits[i].triangle == HIT_NONE) {
+      meet_sky(w, &w->paths[w->alive[i]], &w->rays[i]);
+      continue;
+    }
+    m->which[n] = w->alive[i];
+    m->hits[n] = w->hits[i];
+    m->rays[n++] = w->rays[i];
+    if (n < MET) continue;
+    step_some(w, n);
+    n = 0;
   }
+  step_some(w, n);
   w->count = w->next;
 }
 
@@ -274,6 +311,7 @@ static void *path_room(const void *self, arena *mem) {
   w->hits = ARENA_NEW(mem, hit, n);
   w->shadows = ARENA_NEW(mem, shadow, n);
   w->blocked = ARENA_NEW(mem, bool, n);
+  w->met = ARENA_NEW(mem, met, 1);
   return w;
 }
 

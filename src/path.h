@@ -7,12 +7,14 @@
 #include "light.h"
 #include "path_world.h"
 #include "sampler.h"
+#include "vertex.h"
 
 // Unbiased for any max_depth, as path_naive is, of the same transport.  All
 // that it points to lives while it is used.
 typedef struct path_tracer {
   const path_world *world;
-  const light_set *lights;  // of world's scene and lights
+  const light_set *lights;      // of world's scene and lights
+  vertices_function *vertices;  // NULL: vertex_at, one by one
   sampler_kind sampler;
   uint64_t seed;
 } path_tracer;

@@ -144,12 +144,22 @@ static hit_facet facet_at(const mesh *m, const hit *h) {
   return f;
 }
 
-static vec3 color_at(const mesh *m, const hit *h, const hit_facet *f) {
+static vec3 color_at(const mesh *m, const hit *h) {
   if (m->colors == NULL) return vec3_all(1);
+  const double b[3] = {1 - (double)h->b1 - (double)h->b2, (double)h->b1,
+                       (double)h->b2};
   vec3 c[3];
   for (size_t i = 0; i < 3; i++)
     c[i] = m->colors[m->position_index[3 * (size_t)h->triangle + i]];
-  return corner_blend(c, f->b);
+  return corner_blend(c, b);
+}
+
+void surface_paint(surface *at, const scene *s, const hit *h) {
+  at->uv = scene_uv(s, h);
+  at->color = color_at(&s->mesh, h);
+  at->material = NULL;
+  if (s->material_of != NULL)
+    at->material = &s->materials[s->material_of[h->triangle]];
 }
 
 surface surface_at(const scene *s, const hit *h, vec3 d) {
@@ -170,9 +180,6 @@ surface surface_at(const scene *s, const hit *h, vec3 d) {
                       rounding_error(at.p.z, f.p[0].z, f.p[1].z, f.p[2].z)};
 
   at.inward = inward_step(&f, p, at.p_error);
-  at.uv = scene_uv(s, h);
-  at.color = color_at(&s->mesh, h, &f);
-  if (s->material_of != NULL)
-    at.material = &s->materials[s->material_of[h->triangle]];
+  surface_paint(&at, s, h);
   return at;
 }

@@ -26,6 +26,9 @@ typedef struct surface {
 // The surface at a hit of a ray with direction d on scene s.
 surface surface_at(const scene *s, const hit *h, vec3 d);
 
+// The part of that which is not geometry: uv, colour, material.
+void surface_paint(surface *at, const scene *s, const hit *h);
+
 // A ray that leaves the surface along unit w from p, displaced along ng and
 // inwards by a few of p's errors: it does not meet the triangle it left, and
 // does not start behind anything else.  It starts on the side of w.

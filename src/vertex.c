@@ -14,15 +14,17 @@ vec3 vertex_world(const vertex *v, vec3 w) {
   return vec3_unit(vec3_mad(vec3_mad(sum, w.y, v->b), w.z, v->n));
 }
 
+void vertex_face(vertex *v, const scene *s, const hit *h) {
+  v->ns = surface_mapped_normal(s, &v->at, h);
+  v->ng = v->at.ng;
+  if (v->at.front) return;
+  v->ng = vec3_neg(v->ng);
+  v->ns = vec3_neg(v->ns);
+}
+
 vertex vertex_at(const scene *s, const hit *h, vec3 d) {
-  vertex v = {.at = surface_at(s, h, d)};
-  v.wo = vec3_unit(vec3_neg(d));
-  v.ns = surface_mapped_normal(s, &v.at, h);
-  v.ng = v.at.ng;
-  if (!v.at.front) {
-    v.ng = vec3_neg(v.ng);
-    v.ns = vec3_neg(v.ns);
-  }
+  vertex v = {.at = surface_at(s, h, d), .wo = vec3_unit(vec3_neg(d))};
+  vertex_face(&v, s, h);
   return v;
 }
 

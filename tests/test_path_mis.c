@@ -2,6 +2,7 @@
 // known, and the same pictures as the naive one.
 
 #include "path.h"
+#include "vertex_many.h"
 #include "worlds.h"
 
 #include <string.h>
@@ -18,7 +19,11 @@ typedef struct walker {
 static void walker_ready(walker *k, const path_world *w, sampler_kind kind,
                          uint64_t seed, arena *mem) {
   light_set_build(&k->lights, w->scene, w->lights, true, mem, NULL);
-  k->tracer = (path_tracer){w, &k->lights, kind, seed};
+  k->tracer = (path_tracer){.world = w,
+                            .lights = &k->lights,
+                            .vertices = vertex_many_best(),
+                            .sampler = kind,
+                            .seed = seed};
   k->by = path_integrator(&k->tracer);
 }
 

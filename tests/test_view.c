@@ -287,7 +287,7 @@ static void passes_are_the_renderers(void **state) {
   assert_true(camera_view_of(&view, &FRONT, WIDTH, HEIGHT, &err));
   light_set lights;
   light_set_build(&lights, &w->scene, w->path.lights, true, &mem, NULL);
-  path_tracer paths = {&w->path, &lights, SAMPLER_SOBOL, 5};
+  path_tracer paths = {.world = &w->path, .lights = &lights, .seed = 5};
   integrator by = path_integrator(&paths);
   render_settings set = {
       .width = WIDTH, .height = HEIGHT, .spp = spp, .by = &by};
