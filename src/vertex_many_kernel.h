@@ -10,7 +10,7 @@
 #ifndef VERTEX_MANY_KERNEL_H
 #define VERTEX_MANY_KERNEL_H
 
-#include "vertex_many.h"
+#include "vertex.h"
 
 #include <float.h>
 

@@ -3,7 +3,7 @@
 #ifndef VERTEX_MANY_LEVELS_H
 #define VERTEX_MANY_LEVELS_H
 
-#include "vertex_many.h"
+#include "vertex.h"
 
 extern vertices_function *const vertex_many_base, *const vertex_many_avx2,
                                                       *const vertex_many_avx512;
