@@ -46,9 +46,11 @@ CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_world vertex path_naive film rend
 CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
               light_bound light_tree light_tree_build light_emission light path
 CHAPTER_11 := $(CHAPTER_10)
-CHAPTER_12 := $(CHAPTER_11) simd_base simd_avx2 simd wide_tree wide_levels wide_box wide_leaf \
-             wide_kernel wide_base wide_avx2 wide_avx512 wide vertex_many_levels \
-             vertex_many_kernel vertex_many_base vertex_many_avx2 vertex_many_avx512 vertex_many
+CHAPTER_12 := $(CHAPTER_11) simd_base simd_avx2 simd wide_cost wide_tree \
+             wide_levels wide_box wide_edges wide_distance wide_leaf wide_single wide_push \
+             wide_flight wide_stream wide_kernel wide_base wide_avx2 wide_avx512 wide \
+             vertex_many_levels vertex_many_kernel vertex_many_base vertex_many_avx2 \
+             vertex_many_avx512 vertex_many
 CHAPTER_14 := $(CHAPTER_12) post view_state view_script view_paths view_window
 CHAPTER_15 := $(CHAPTER_14) glyph sketch plot
 LIBRARY   := $(CHAPTER_15)
@@ -85,8 +87,9 @@ $(B)/%.o: %.c Makefile
 # One kernel (src/wide_kernel.h) for several sets of instructions; the program
 # asks the processor which it has.
 ifneq (,$(findstring x86_64,$(shell $(CC) -dumpmachine)))
-$(B)/src/wide_avx2.o $(B)/src/vertex_many_avx2.o: FLAGS += -mavx2
-$(B)/src/wide_avx512.o $(B)/src/vertex_many_avx512.o: FLAGS += -mavx2 -mavx512f -mavx512vl -mavx512dq -mavx512bw
+AVX2 := -mavx2 -mfma -mbmi
+$(B)/src/wide_avx2.o $(B)/src/vertex_many_avx2.o: FLAGS += $(AVX2)
+$(B)/src/wide_avx512.o $(B)/src/vertex_many_avx512.o: FLAGS += $(AVX2) -mavx512f -mavx512vl -mavx512dq -mavx512bw
 endif
 
 # Loops over lanes become vector instructions where nothing else is asked of

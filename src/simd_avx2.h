@@ -29,6 +29,16 @@ SIMD f8 f8_of_bytes(const uint8_t *p) {
   return (f8){_mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(b))};
 }
 
+// a b + c, rounded once; asked only where a b is exact, so that it does not
+// matter.
+SIMD f8 f8_mad(f8 a, f8 b, f8 c) {
+#if defined(__FMA__)
+  return (f8){_mm256_fmadd_ps(a.v, b.v, c.v)};
+#else
+  return (f8){_mm256_add_ps(_mm256_mul_ps(a.v, b.v), c.v)};
+#endif
+}
+
 SIMD f8 f8_add(f8 a, f8 b) {
   return (f8){_mm256_add_ps(a.v, b.v)};
 }
@@ -39,6 +49,14 @@ SIMD f8 f8_sub(f8 a, f8 b) {
 
 SIMD f8 f8_mul(f8 a, f8 b) {
   return (f8){_mm256_mul_ps(a.v, b.v)};
+}
+
+SIMD f8 f8_div(f8 a, f8 b) {
+  return (f8){_mm256_div_ps(a.v, b.v)};
+}
+
+SIMD f8 f8_abs(f8 a) {
+  return (f8){_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)};
 }
 
 SIMD f8 f8_max(f8 a, f8 b) {

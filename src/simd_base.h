@@ -14,11 +14,31 @@
 // Known to the compiler where it is used, at any optimisation.
 #define SIMD static inline __attribute__((always_inline))
 
-#if !defined(__AVX2__)
-
-// Four floats and four integers, of which f8 has two each.
+// Four floats and four integers.
 typedef float f4 __attribute__((vector_size(16)));
 typedef int32_t i4 __attribute__((vector_size(16)));
+
+// a where m, else b, lane by lane.
+SIMD f4 f4_pick(i4 m, f4 a, f4 b) {
+  return (f4)((m & (i4)a) | (~m & (i4)b));
+}
+
+SIMD f4 f4_abs(f4 a) {
+  return (f4)((i4)a & INT32_MAX);
+}
+
+// Bit k: the sign of lane k.
+SIMD uint32_t i4_bits(i4 m) {
+#if defined(__x86_64__)
+  return (uint32_t)_mm_movemask_ps((__m128)m);
+#else
+  uint32_t b[4];
+  memcpy(b, &m, sizeof b);
+  return (b[0] & 1) | (b[1] & 2) | (b[2] & 4) | (b[3] & 8);
+#endif
+}
+
+#if !defined(__AVX2__)
 
 typedef struct f8 {
   f4 a, b;
@@ -46,6 +66,11 @@ SIMD f8 f8_of_bytes(const uint8_t *p) {
   return (f8){__builtin_convertvector(a, f4), __builtin_convertvector(b, f4)};
 }
 
+// a b + c; asked only where a b is exact.
+SIMD f8 f8_mad(f8 a, f8 b, f8 c) {
+  return (f8){a.a * b.a + c.a, a.b * b.b + c.b};
+}
+
 SIMD f8 f8_add(f8 a, f8 b) {
   return (f8){a.a + b.a, a.b + b.b};
 }
@@ -58,20 +83,12 @@ SIMD f8 f8_mul(f8 a, f8 b) {
   return (f8){a.a * b.a, a.b * b.b};
 }
 
-// a where m, else b, lane by lane.
-SIMD f4 f4_pick(i4 m, f4 a, f4 b) {
-  return (f4)((m & (i4)a) | (~m & (i4)b));
+SIMD f8 f8_div(f8 a, f8 b) {
+  return (f8){a.a / b.a, a.b / b.b};
 }
 
-// Bit k: the sign of lane k.
-SIMD uint32_t i4_bits(i4 m) {
-#if defined(__x86_64__)
-  return (uint32_t)_mm_movemask_ps((__m128)m);
-#else
-  uint32_t b[4];
-  memcpy(b, &m, sizeof b);
-  return (b[0] & 1) | (b[1] & 2) | (b[2] & 4) | (b[3] & 8);
-#endif
+SIMD f8 f8_abs(f8 a) {
+  return (f8){f4_abs(a.a), f4_abs(a.b)};
 }
 
 SIMD f8 f8_max(f8 a, f8 b) {

@@ -8,10 +8,11 @@
 static bool level_runs(int level) {
 #if defined(__x86_64__)
   __builtin_cpu_init();
-  if (level == 1) return __builtin_cpu_supports("avx2");
+  bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+              __builtin_cpu_supports("bmi");
+  if (level == 1) return avx2;
   if (level == 2)
-    return __builtin_cpu_supports("avx2") &&
-           __builtin_cpu_supports("avx512f") &&
+    return avx2 && __builtin_cpu_supports("avx512f") &&
            __builtin_cpu_supports("avx512vl") &&
            __builtin_cpu_supports("avx512dq") &&
            __builtin_cpu_supports("avx512bw");

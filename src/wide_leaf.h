@@ -1,41 +1,9 @@
-// wide_leaf.h — a ray and up to eight triangles.
-//
-// Which triangle is hit where is decided by triangle_hit and slab_hold; what is
-// here only keeps from them those that they would refuse.
+// wide_leaf.h — a ray and a leaf.
 
 #ifndef WIDE_LEAF_H
 #define WIDE_LEAF_H
 
-#include "wide_box.h"
-
-// A coordinate of eight corners, before the shear.
-SIMD f8 corners_at(const uint32_t *leaf, uint32_t n, int corner, int axis,
-                   float o) {
-  const uint32_t *p = leaf + (uint32_t)(3 * corner + axis) * n;
-  return f8_sub(f8_load((const float *)(const void *)p), f8_all(o));
-}
-
-// The triangles of a leaf that the ray may hit: all but those with two edge
-// functions of opposite sign, in the very arithmetic of triangle_hit.
-SIMD uint32_t leaf_candidates(const wide_walk *w, const uint32_t *leaf,
-                              uint32_t n) {
-  static const int turned[3][3] = {{1, 2, 0}, {2, 0, 1}, {0, 1, 2}};
-  const int *axis = turned[w->shear.kz];
-  const float o[3] = {w->r.o.x, w->r.o.y, w->r.o.z};
-  f8 sx = f8_all(w->shear.sx), sy = f8_all(w->shear.sy), x[3], y[3];
-  for (int i = 0; i < 3; i++) {
-    f8 z = corners_at(leaf, n, i, axis[2], o[axis[2]]);
-    x[i] = f8_sub(corners_at(leaf, n, i, axis[0], o[axis[0]]), f8_mul(sx, z));
-    y[i] = f8_sub(corners_at(leaf, n, i, axis[1], o[axis[1]]), f8_mul(sy, z));
-  }
-  f8 u = f8_sub(f8_mul(x[2], y[1]), f8_mul(y[2], x[1]));
-  f8 v = f8_sub(f8_mul(x[0], y[2]), f8_mul(y[0], x[2]));
-  f8 s = f8_sub(f8_mul(x[1], y[0]), f8_mul(y[1], x[0]));
-  f8 zero = f8_all(0);
-  uint32_t less = f8_lt(u, zero) | f8_lt(v, zero) | f8_lt(s, zero);
-  uint32_t more = f8_lt(zero, u) | f8_lt(zero, v) | f8_lt(zero, s);
-  return ~(less & more) & ((1u << n) - 1);
-}
+#include "wide_distance.h"
 
 static vec3 corner_of(const uint32_t *leaf, uint32_t n, uint32_t i) {
   vec3 p;
@@ -45,29 +13,69 @@ static vec3 corner_of(const uint32_t *leaf, uint32_t n, uint32_t i) {
   return p;
 }
 
+// h becomes the best hit when it is nearer, or as near and of a lower number.
+SIMD bool walk_keep(wide_walk *w, const hit *h) {
+  if (h->t > w->best.t || (h->t == w->best.t && h->triangle > w->best.triangle))
+    return false;
+  w->best = *h;
+  return true;
+}
+
+// The same for one triangle, in all the precision that it needs.
+static bool leaf_one(const wide_walk *w, const uint32_t *leaf, uint32_t n,
+                     uint32_t i, hit *h) {
+  vec3 p[3];
+  for (uint32_t k = 0; k < 3; k++)
+    p[k] = corner_of(leaf + 3 * (size_t)k * n, n, i);
+  h->triangle = leaf[9 * n + i];
+  ray r = w->r;
+  r.d = ray_flush(r.d);
+  slab_ray s = {.inv = {w->inv[0], w->inv[1], w->inv[2]},
+                .o_enter = {w->enter[0], w->enter[1], w->enter[2]},
+                .o_leave = {w->leave[0], w->leave[1], w->leave[2]},
+                .x = 2 * w->side[0],
+                .y = 4 + 2 * w->side[1],
+                .z = 8 + 2 * w->side[2]};
+  return triangle_hit(&r, &w->shear, p[0], p[1], p[2], h) &&
+         slab_hold(&s, &r, p, h);
+}
+
+// The candidates m of a leaf: whether there is a better hit, or with `any` one
+// at all.
+SIMD bool leaf_settle(wide_walk *w, leaf_shear *c, const uint32_t *leaf,
+                      uint32_t n, uint32_t m, bool any) {
+  float t[8], det[8], v[8], u[8];
+  uint32_t unsure;
+  bool found = false;
+  m = leaf_distances(c, w, leaf, n, m, t, det, &unsure);
+  if (any && m != 0) return true;
+  if (m != 0) {
+    f8_store(u, c->e[1]);
+    f8_store(v, c->e[2]);
+  }
+  for (; m != 0; m &= m - 1) {
+    uint32_t i = (uint32_t)__builtin_ctz(m);
+    hit h = {t[i], u[i] / det[i], v[i] / det[i], leaf[9 * n + i]};
+    found |= walk_keep(w, &h);
+  }
+  for (; unsure != 0; unsure &= unsure - 1) {
+    hit h;
+    if (!leaf_one(w, leaf, n, (uint32_t)__builtin_ctz(unsure), &h)) continue;
+    if (any) return true;
+    found |= walk_keep(w, &h);
+  }
+  return found;
+}
+
 // Test the triangles of a leaf and keep the best hit: the smallest t, of equal
 // t the lowest triangle.  With `any`, stop at the first.
 SIMD bool walk_leaf(wide_walk *w, const wide_tree *t, uint32_t child,
                     bool any) {
   uint32_t n = wide_leaf_count(child);
   const uint32_t *leaf = t->triangles + 10 * (size_t)wide_leaf_first(child);
-  bool found = false;
-  for (uint32_t m = leaf_candidates(w, leaf, n); m != 0; m &= m - 1) {
-    uint32_t i = (uint32_t)__builtin_ctz(m);
-    vec3 p[3];
-    for (uint32_t k = 0; k < 3; k++)
-      p[k] = corner_of(leaf + 3 * (size_t)k * n, n, i);
-    hit h = {.triangle = leaf[9 * n + i]};
-    if (!triangle_hit(&w->r, &w->shear, p[0], p[1], p[2], &h) ||
-        !slab_hold(&w->slab, &w->r, p, &h))
-      continue;
-    if (any) return true;
-    if (h.t > w->best.t || (h.t == w->best.t && h.triangle > w->best.triangle))
-      continue;
-    w->best = h;
-    found = true;
-  }
-  return found;
+  leaf_shear c;
+  uint32_t m = leaf_edges(&c, w, leaf, n);
+  return m != 0 && leaf_settle(w, &c, leaf, n, m, any);
 }
 
 #endif

@@ -15,61 +15,31 @@ typedef struct collapse_item {
 // What collapsing has at hand.
 typedef struct collapse {
   const bvh *b;
+  const wide_cost *costs;
   wide_tree *out;
-  uint32_t *below;  // triangles below each binary node
   collapse_item *items;
   uint32_t item_count;
 } collapse;
-
-static aabb box_of(const bvh_node *n) {
-  return (aabb){n->lo, n->hi};
-}
-
-// Children come after their parents: backwards, they are known first.
-static void count_below(collapse *c) {
-  for (uint32_t i = c->b->node_count; i-- > 0;) {
-    const bvh_node *n = &c->b->nodes[i];
-    c->below[i] =
-        n->count > 0 ? n->count : c->below[n->first] + c->below[n->first + 1];
-  }
-}
-
-// Open the child with the largest box that may be opened, until eight are
-// there or none is left; their number.
-static uint32_t gather_children(const collapse *c, uint32_t from,
-                                uint32_t child[WIDE]) {
-  const bvh_node *nodes = c->b->nodes;
-  uint32_t n = 1;
-  child[0] = from;
-  while (n < WIDE) {
-    uint32_t best = WIDE;
-    double most = -1;
-    for (uint32_t i = 0; i < n; i++) {
-      double area = aabb_half_area(box_of(&nodes[child[i]]));
-      if (nodes[child[i]].count > 0 || area <= most) continue;
-      if (c->below[child[i]] <= 4 && child[i] != from) continue;
-      most = area;
-      best = i;
-    }
-    if (best == WIDE) break;
-    uint32_t first = nodes[child[best]].first;
-    child[best] = first;
-    child[n++] = first + 1;
-  }
-  return n;
-}
 
 // The plane that byte q stands for.
 static float plane_of(float base, float scale, int q) {
   return base + (float)q * scale;
 }
 
+// The next float above x >= 0 of which the last 8 bits are 0.
+static float short_float(float x) {
+  uint32_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  bits = (bits | 0xff) + 1;
+  memcpy(&x, &bits, sizeof x);
+  return x;
+}
+
 // Base and scale of an axis such that byte 255 reaches hi.
 static void frame_axis(wide_node *w, int k, float lo, float hi) {
-  double scale = ((double)hi - (double)lo) / 255;
-  float s = (float)scale;
+  float s = short_float((float)(((double)hi - (double)lo) / 255));
   while (plane_of(lo, s, 255) < hi)
-    s = nextafterf(s, INFINITY);
+    s = short_float(s);
   w->base[k] = lo;
   w->scale[k] = s;
 }
@@ -127,9 +97,9 @@ static uint32_t write_leaf(collapse *c, uint32_t from) {
 static void write_node(collapse *c, collapse_item it) {
   uint32_t child[WIDE];
   const bvh_node *nodes = c->b->nodes, *from = &nodes[it.from];
-  uint32_t n = gather_children(c, it.from, child);
+  uint32_t n = wide_children(c->b, c->costs, it.from, child);
   wide_node *w = &c->out->nodes[it.to];
-  w->count = n;
+  w->valid = (1u << n) - 1;
   frame_axis(w, 0, from->lo.x, from->hi.x);
   frame_axis(w, 1, from->lo.y, from->hi.y);
   frame_axis(w, 2, from->lo.z, from->hi.z);
@@ -139,7 +109,7 @@ static void write_node(collapse *c, collapse_item it) {
     quantise_axis(w, 0, i, box->lo.x, box->hi.x);
     quantise_axis(w, 1, i, box->lo.y, box->hi.y);
     quantise_axis(w, 2, i, box->lo.z, box->hi.z);
-    if (box->count > 0 || c->below[child[i]] <= 4) {
+    if (wide_is_leaf(c->b, c->costs, child[i])) {
       w->child[i] = write_leaf(c, child[i]);
       continue;
     }
@@ -156,19 +126,18 @@ static void *aligned_alloc_of(arena *mem, size_t n, size_t size) {
 }
 
 void wide_tree_build(wide_tree *out, const bvh *b, arena *mem, pool *threads) {
-  (void)threads;
   double start = clock_seconds();
   *out = (wide_tree){0};
   if (b->nodes == NULL || b->refs > WIDE_MAX_TRIANGLES) return;
   arena scratch = {0};
   collapse c = {.b = b, .out = out};
-  c.below = ARENA_NEW(&scratch, uint32_t, b->node_count);
   c.items = ARENA_NEW(&scratch, collapse_item, b->node_count);
-  count_below(&c);
-  out->box = box_of(&b->nodes[0]);
+  c.costs = wide_costs_of(b, &scratch, threads);
+  memcpy(out->lo, &b->nodes[0].lo, sizeof(vec3));
+  memcpy(out->hi, &b->nodes[0].hi, sizeof(vec3));
   out->nodes = aligned_alloc_of(mem, b->node_count / 2 + 1, sizeof(wide_node));
-  out->triangles =
-      aligned_alloc_of(mem, c.below[0] + WIDE_LEAF, 10 * sizeof(uint32_t));
+  out->triangles = aligned_alloc_of(mem, c.costs[0].below + WIDE_LEAF,
+                                    10 * sizeof(uint32_t));
   out->node_count = 1;
   c.items[c.item_count++] = (collapse_item){0, 0, 0};
   while (c.item_count > 0)

@@ -3,26 +3,24 @@
 #ifndef WIDE_TREE_H
 #define WIDE_TREE_H
 
-#include "bvh.h"
-
-// Children of a node at most, triangles of a leaf at most.
-enum { WIDE = 8, WIDE_LEAF = 8 };
+#include "wide_cost.h"
 
 // Eight boxes in two lines of the cache.  Along axis k, byte q of lo or hi
 // stands for the plane base[k] + q scale[k], rounded to float: never inside
-// the child that it bounds.  Children 0 .. count - 1 are there.
+// the child that it bounds.  scale has 16 bits or fewer, so that the product is
+// exact.  Bit i of valid: child i is there.
 typedef struct wide_node {
   float base[3], scale[3];
   uint8_t plane[3][2][WIDE];  // of an axis the lower ones, then the upper ones
   uint32_t child[WIDE];       // see wide_leaf_first
-  uint32_t count, spare[5];
+  uint32_t valid, spare[5];
 } wide_node;
 
 // A tree made of a bvh.  The triangles of a leaf are copied together: with n
 // of them, x of corner 0 n times, y, z, then corners 1 and 2, then their n
 // numbers; 40 bytes a triangle and no gaps.
 typedef struct wide_tree {
-  aabb box;
+  float lo[4], hi[4];   // its box, and a number that means nothing
   wide_node *nodes;     // nodes[0] is the root; NULL when there is nothing
   uint32_t *triangles;  // ten words a triangle, floats but for the numbers
   uint32_t node_count, triangle_count;

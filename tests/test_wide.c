@@ -189,8 +189,8 @@ static void trees_are_whole(void **unused) {
     uint32_t reached = 1, triangles = 0;
     for (uint32_t k = 0; k < w.wide.node_count; k++) {
       const wide_node *n = &w.wide.nodes[k];
-      assert_true(n->count >= 1 && n->count <= WIDE);
-      for (uint32_t c = 0; c < n->count; c++) {
+      assert_true(n->valid > 0 && (n->valid & (n->valid + 1)) == 0);
+      for (uint32_t c = 0; n->valid >> c != 0; c++) {
         if (n->child[c] & WIDE_LEAF_BIT) {
           check_leaf(&w, n, c, seen);
           triangles += wide_leaf_count(n->child[c]);

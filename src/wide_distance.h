@@ -1,0 +1,73 @@
+// wide_distance.h — where a ray meets up to eight triangles: triangle_hit and
+// slab_hold in their very arithmetic, for those that floats decide.
+
+#ifndef WIDE_DISTANCE_H
+#define WIDE_DISTANCE_H
+
+#include "wide_edges.h"
+
+// The largest magnitude of three.
+SIMD f8 f8_peak(const f8 v[3]) {
+  return f8_max(f8_max(f8_abs(v[0]), f8_abs(v[1])), f8_abs(v[2]));
+}
+
+// t_error of triangle.c.
+SIMD f8 leaf_error(const leaf_shear *c, f8 det) {
+  f8 g2 = f8_all(2 * 0x1p-24f), g3 = f8_all(3 * 0x1p-24f);
+  f8 g5 = f8_all(5.1f * 0x1p-24f), two = f8_all(2), three = f8_all(3);
+  f8 mx = f8_peak(c->x), my = f8_peak(c->y), mz = f8_peak(c->z);
+  f8 me = f8_peak(c->e);
+  f8 dz = f8_mul(g3, mz), dx = f8_mul(g5, f8_add(mx, mz));
+  f8 dy = f8_mul(g5, f8_add(my, mz));
+  f8 de = f8_add(f8_mul(f8_mul(g2, mx), my), f8_mul(dy, mx));
+  de = f8_mul(two, f8_add(de, f8_mul(dx, my)));
+  f8 sum = f8_add(f8_mul(f8_mul(g3, me), mz), f8_mul(de, mz));
+  sum = f8_mul(three, f8_add(sum, f8_mul(dz, me)));
+  return f8_div(sum, f8_abs(det));
+}
+
+// Where the lines of the ray enter and leave the boxes of the triangles
+// themselves, one axis: slab_hold of slab.c.
+SIMD void leaf_slab(f8 *near, f8 *far, const uint32_t *leaf, uint32_t n,
+                    uint32_t axis, const wide_walk *w) {
+  f8 a = leaf_load(leaf, n, 0, axis), b = leaf_load(leaf, n, 1, axis);
+  f8 c = leaf_load(leaf, n, 2, axis), inv = f8_all(w->inv[axis]);
+  f8 lo = f8_min(f8_min(a, b), c), hi = f8_max(f8_max(a, b), c);
+  bool back = w->side[axis] != 0;
+  f8 in = back ? hi : lo, out = back ? lo : hi;
+  in = f8_mul(f8_sub(in, f8_all(w->enter[axis])), inv);
+  out = f8_mul(f8_sub(out, f8_all(w->leave[axis])), inv);
+  *near = f8_max(in, *near);
+  *far = f8_min(out, *far);
+}
+
+// What is left of the candidates m: t of triangle_hit and slab_hold for those
+// that single precision decides, the others in *unsure.
+SIMD uint32_t leaf_distances(leaf_shear *c, const wide_walk *w,
+                             const uint32_t *leaf, uint32_t n, uint32_t m,
+                             float out_t[8], float out_det[8],
+                             uint32_t *unsure) {
+  f8 zero = f8_all(0), sz = f8_all(w->shear.sz), infinite = f8_all(INFINITY);
+  f8 det = f8_add(f8_add(c->e[0], c->e[1]), c->e[2]), size = f8_abs(det);
+  for (int i = 0; i < 3; i++)
+    c->z[i] = f8_mul(sz, c->z[i]);
+  f8 t = f8_add(f8_mul(c->e[0], c->z[0]), f8_mul(c->e[1], c->z[1]));
+  t = f8_div(f8_add(t, f8_mul(c->e[2], c->z[2])), det);
+  f8 small = f8_min(f8_min(f8_abs(c->e[0]), f8_abs(c->e[1])), f8_abs(c->e[2]));
+  uint32_t sure = f8_lt(zero, small) & f8_lt(f8_all(FLT_MIN * 0x1p24f), size) &
+                  f8_lt(size, infinite) & f8_lt(leaf_error(c, det), f8_abs(t));
+  *unsure = m & ~sure;
+  f8 near = f8_all(-INFINITY), far = infinite;
+  for (uint32_t k = 0; k < 3; k++)
+    leaf_slab(&near, &far, leaf, n, k, w);
+  f8 tmin = f8_all(w->r.tmin), tmax = f8_all(w->r.tmax);
+  uint32_t in = f8_lt(zero, t) & f8_le(tmin, t) & f8_le(t, tmax) &
+                f8_lt(t, infinite) & f8_le(near, far);
+  t = f8_min(far, f8_max(near, t));
+  f8_store(out_t, t);
+  f8_store(out_det, det);
+  return m & sure & in & f8_le(tmin, t) & f8_le(t, tmax) &
+         f8_le(t, f8_all(w->best.t));
+}
+
+#endif
