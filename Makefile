@@ -42,7 +42,7 @@ CHAPTER_6 := $(CHAPTER_5) microfacet dfg bsdf_rough raster_rough
 CHAPTER_7 := $(CHAPTER_6) ibl_level ibl_lobe ibl_wave ibl_source ibl_methods \
              ibl_cache ibl raster_env
 CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
-CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_world vertex path_naive film render
+CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_world vertex path_naive film first_hit render_guide render
 CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
               light_bound light_tree light_tree_build light_emission light path
 CHAPTER_11 := $(CHAPTER_10)
@@ -52,7 +52,7 @@ CHAPTER_12 := $(CHAPTER_11) simd_base simd_avx2 simd wide_cost wide_tree \
              vertex_many_levels vertex_many_kernel vertex_many_base vertex_many_avx2 \
              vertex_many_avx512 vertex_many
 CHAPTER_14 := $(CHAPTER_12) post view_state view_script view_paths view_window
-CHAPTER_15 := $(CHAPTER_14) glyph sketch plot
+CHAPTER_15 := $(CHAPTER_14) glyph sketch plot two_means halves adaptive doubling
 LIBRARY   := $(CHAPTER_15)
 CHAPTERS  := 1 2 3 4 5 6 7 8 9 12 14 15 17
 # The command line, the only floor that prints and exits.

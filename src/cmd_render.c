@@ -6,7 +6,10 @@
 #include "cmd_signals.h"
 #include "cmd_tree.h"
 
+#include "adaptive.h"
 #include "clock.h"
+#include "doubling.h"
+#include "halves.h"
 #include "path.h"
 #include "progress.h"
 #include "vertex_many.h"
@@ -31,6 +34,9 @@ typedef struct render_job {
   path_tracer paths;  // by one of these
   path_naive naive;
   integrator by;
+  integrator twice;  // by, for both halves
+  halves_walk halves;
+  render_guide guide;
   render_settings settings;  // and how
   render_result result;
   progress display;
@@ -274,6 +280,28 @@ static void choose_integrator(render_job *j) {
   j->settings.by = &j->by;
 }
 
+// Who watches the error.  Where it decides when to stop, samples go where they
+// help and all pixels have two halves; else it is only looked at, if somebody
+// will hear of it.
+static void choose_guide(render_job *j) {
+  render_settings *s = &j->settings;
+  const shot *sh = &j->shot;
+  bool crop = s->x1 > 0;
+  int w = crop ? s->x1 - s->x0 : s->width, h = crop ? s->y1 - s->y0 : s->height;
+  if (s->error > 0 || s->deadline > 0) {
+    adaptive_settings a = {w, h, s->error, s->spp};
+    j->guide = adaptive_guide(adaptive_new(&a, sh->mem));
+    j->halves = (halves_walk){&j->by, (uint64_t)s->width * (uint64_t)s->height};
+    j->twice = halves_integrator(&j->halves);
+    s->by = &j->twice;
+  } else if (given(j, OPT_JSON) || !given(j, OPT_QUIET)) {
+    j->guide = doubling_guide(doubling_new(sh->mem, w, h));
+  } else {
+    return;
+  }
+  s->guide = &j->guide;
+}
+
 // Build the tree and trace paths.
 static void run_path(render_job *j) {
   shot *s = &j->shot;
@@ -282,6 +310,7 @@ static void run_path(render_job *j) {
   cmd_tree_build(&j->tree, j->o, m, s->mem, s->threads);
   j->world.tracer = j->tree.tracer;
   choose_integrator(j);
+  choose_guide(j);
   j->display = progress_new(given(j, OPT_QUIET));
   signals_catch_stop();
   render_run(&j->result, &j->world, &s->view, &j->settings, s->mem, s->threads);

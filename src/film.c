@@ -84,11 +84,16 @@ static double block_error(const film *f, int x, int y, int side) {
 // Pixels a side of a block over which the estimate takes radiance for equal.
 enum { ERROR_BLOCK = 4 };
 
+double film_box_error(const film *f, const film_box *box) {
+  double sum = 0;
+  for (int y = box->y0; y < box->y1; y += ERROR_BLOCK)
+    for (int x = box->x0; x < box->x1; x += ERROR_BLOCK)
+      sum += block_error(f, x, y, ERROR_BLOCK);
+  return sum;
+}
+
 double film_error(const film *f) {
   if (f->square == NULL) return 0;
-  double sum = 0;
-  for (int y = 0; y < f->height; y += ERROR_BLOCK)
-    for (int x = 0; x < f->width; x += ERROR_BLOCK)
-      sum += block_error(f, x, y, ERROR_BLOCK);
-  return sqrt(sum / (3 * (double)pixel_count(f)));
+  film_box all = {0, 0, f->width, f->height};
+  return sqrt(film_box_error(f, &all) / (3 * (double)pixel_count(f)));
 }

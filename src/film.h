@@ -32,4 +32,12 @@ image film_variance_image(const film *f, arena *mem);
 // there are fewer than two samples or no sums of squares.
 double film_error(const film *f);
 
+// A rectangle of pixels, half-open.
+typedef struct film_box {
+  int x0, y0, x1, y1;
+} film_box;
+
+// The sum over its pixels and channels of variance / (radiance^2 + 0.01).
+double film_box_error(const film *f, const film_box *box);
+
 #endif

@@ -6,12 +6,11 @@
 
 #include "clock.h"
 #include "film.h"
-#include "matter.h"
+#include "first_hit.h"
 
 #include <stdatomic.h>
 
-// Pixels a side of a tile, the item of work of a thread.
-enum { TILE = 16 };
+enum { TILE = RENDER_TILE };
 
 // The seconds that a pass should take where someone waits for its end, and
 // between two calls of the progress function.
@@ -55,33 +54,16 @@ typedef struct job {
   int tiles_across, tile_count;
   film color;
   first_films first;
-  float farthest;   // of the scene along the view axis
-  int begin, end;   // the samples of this pass
+  float farthest;         // of the scene along the view axis
+  int begin, end;         // the samples of this pass, unless there is a guide
+  double before, during;  // samples of all pixels: taken, and in this pass
+  double pass_start;
   atomic_int done;  // its finished tiles
   double start, last_progress, error;
   integrator by;
   worker *team;
   int workers;
 } job;
-
-// What the first surface on a ray looks like by itself.
-typedef struct first_hit {
-  bool found;
-  float depth;  // along the view axis
-  vec3 normal, albedo;
-} first_hit;
-
-static first_hit first_hit_of(const job *j, const ray *r, path_stats *stats) {
-  const tracer *t = &j->world->tracer;
-  const scene *world = j->world->scene;
-  hit h;
-  stats->rays++;
-  if (!t->closest(t->tree, r, &h)) return (first_hit){0};
-  surface s = surface_at(world, &h, r->d);
-  float depth = vec3_dot(vec3_sub(s.p, j->view->eye), j->view->forward);
-  return (first_hit){true, depth, surface_mapped_normal(world, &s, &h),
-                     matter_albedo(&s)};
-}
 
 static vec3 shade_first(const job *j, const first_hit *f) {
   switch (j->set->shading) {
@@ -119,13 +101,14 @@ static void drop_sample(tally *t, uint64_t sample, uint64_t pixel) {
 }
 
 // Take up the sample of the given number of pixel (x, y) of the window.
-static void start_sample(const job *j, int x, int y, int sample, worker *w) {
+static void start_sample(const job *j, int x, int y, uint32_t sample,
+                         worker *w) {
   size_t i = (size_t)y * (size_t)j->width + (size_t)x;
   x += j->x0, y += j->y0;
   uint64_t pixel = (uint64_t)y * (uint64_t)j->set->width + (uint64_t)x;
-  vec2 at = j->by.place(j->by.self, pixel, (uint32_t)sample);
+  vec2 at = j->by.place(j->by.self, pixel, sample);
   ray r = camera_ray(j->view, (float)x + at.x, (float)y + at.y);
-  w->starts[w->count] = (path_start){r, pixel, (uint32_t)sample};
+  w->starts[w->count] = (path_start){r, pixel, sample};
   w->pixels[w->count++] = i;
 }
 
@@ -139,7 +122,7 @@ static void end_samples(job *j, worker *w) {
   for (size_t k = 0; k < w->count; k++) {
     const path_start *s = &w->starts[k];
     first_hit first = {0};
-    if (firsts) first = first_hit_of(j, &s->ray, &t->paths);
+    if (firsts) first = first_hit_of(j->world, j->view, &s->ray, &t->paths);
     vec3 color = j->set->shading == RENDER_RADIANCE ? w->colors[k]
                                                     : shade_first(j, &first);
     if (!vec3_finite(color)) {
@@ -147,17 +130,36 @@ static void end_samples(job *j, worker *w) {
       continue;
     }
     film_add(&j->color, w->pixels[k], color);
+    const render_guide *g = j->set->guide;
+    if (g != NULL) g->add(g->self, w->pixels[k], s->sample, color);
     if (firsts) add_first(&j->first, w->pixels[k], &first);
   }
   t->samples += w->count;
   w->count = 0;
 }
 
-// The share of the whole that is done, by samples or by time.
-static double share_done(const job *j, double now) {
+static double pixel_count(const job *j) {
+  return (double)j->width * (double)j->height;
+}
+
+// Samples of all pixels.
+static double samples_done(const job *j) {
   double tiles = (double)atomic_load(&j->done) / (double)j->tile_count;
-  double spp = (double)j->begin + tiles * (double)(j->end - j->begin);
-  double share = spp / (double)j->set->spp;
+  return j->before + tiles * j->during;
+}
+
+// Samples a pixel, on average.
+static int spp_so_far(const job *j) {
+  return (int)((j->before + j->during) / pixel_count(j) + 0.5);
+}
+
+// The share of the whole that is done, by samples, by error or by time.
+static double share_done(const job *j, double now) {
+  double share = samples_done(j) / (pixel_count(j) * (double)j->set->spp);
+  if (j->set->error > 0 && j->error > 0) {
+    double root = j->set->error / j->error;
+    if (root * root > share) share = root * root;
+  }
   if (j->set->deadline > 0) {
     double timed = (now - j->start) / (j->set->deadline - j->start);
     if (timed > share) share = timed;
@@ -166,15 +168,21 @@ static double share_done(const job *j, double now) {
 }
 
 static void tell_progress(job *j, double now) {
-  double tiles = (double)atomic_load(&j->done) / (double)j->tile_count;
-  double spp = (double)j->begin + tiles * (double)(j->end - j->begin);
-  double pixels = (double)j->width * (double)j->height;
   render_progress p = {.done = share_done(j, now),
                        .seconds = now - j->start,
-                       .samples = (uint64_t)(spp * pixels),
+                       .samples = (uint64_t)samples_done(j),
                        .error = j->error};
   j->last_progress = now;
   j->set->progress(j->set->progress_context, &p);
+}
+
+// The next sample that every pixel of a tile gets in this pass.
+static bool next_sample(const job *j, size_t tile, uint32_t *at,
+                        uint32_t *sample) {
+  const render_guide *g = j->set->guide;
+  if (g != NULL && g->next != NULL) return g->next(g->self, tile, at, sample);
+  *sample = (uint32_t)j->begin + (*at)++;
+  return *sample < (uint32_t)j->end;
 }
 
 // Work of the pool: the samples of this pass in one tile.
@@ -183,10 +191,11 @@ static void render_tile(void *context, size_t item, int number) {
   int tx = (int)item % j->tiles_across * TILE;
   int ty = (int)item / j->tiles_across * TILE;
   worker *w = &j->team[number];
-  for (int s = j->begin; s < j->end; s++) {
+  uint32_t at = 0, sample;
+  while (next_sample(j, item, &at, &sample)) {
     for (int y = ty; y < ty + TILE && y < j->height; y++)
       for (int x = tx; x < tx + TILE && x < j->width; x++)
-        start_sample(j, x, y, s, w);
+        start_sample(j, x, y, sample, w);
     if (w->count + TILE * TILE > INTEGRATOR_BATCH) end_samples(j, w);
   }
   end_samples(j, w);
@@ -218,22 +227,54 @@ static int pass_samples(const job *j) {
   return n < 1 ? 1 : (int)n;
 }
 
-// The farthest corner of the scene's box along the view axis, so that depth
-// means the same in every crop.
-static float farthest_depth(const scene *s, const camera_view *v) {
-  float far = 0;
-  for (int i = 0; i < 8; i++) {
-    vec3 corner = {i & 1 ? s->hi.x : s->lo.x, i & 2 ? s->hi.y : s->lo.y,
-                   i & 4 ? s->hi.z : s->lo.z};
-    far = fmaxf(far, vec3_dot(vec3_sub(corner, v->eye), v->forward));
+// Seconds for one sample of one pixel, as it was so far and in the last pass.
+static double sample_seconds(const job *j, double now) {
+  double all = (now - j->start) / fmax(j->before + j->during, 1);
+  double last = (now - j->pass_start) / fmax(j->during, 1);
+  return fmax(fmax(all, last), 1e-12);
+}
+
+// The samples of the next pass over all pixels as the guide has it.
+static double guided_samples(const job *j) {
+  const render_settings *s = j->set;
+  const render_guide *g = s->guide;
+  render_budget b = {2 * pixel_count(j), (double)INFINITY};
+  if (!(j->during > 0)) return g->plan(g->self, &b);
+  if (s->stop != NULL && *s->stop) return 0;
+  double now = clock_seconds(), each = sample_seconds(j, now);
+  double room = PASS_SECONDS;
+  if (s->deadline > 0) {
+    b.left = (s->deadline - now) / each;
+    room = fmin(room, s->deadline - now);
   }
-  return far > 0 ? far : 1;
+  if (!(room > 0)) return 0;
+  b.pass = room / each;
+  double n = g->plan(g->self, &b);
+  return n > b.left ? 0 : n;
+}
+
+// Plan the next pass; false when there is none.
+static bool plan_pass(job *j) {
+  bool guided = j->set->guide != NULL && j->set->guide->plan != NULL;
+  int n = guided ? 0 : pass_samples(j);
+  double all = guided ? guided_samples(j) : n * pixel_count(j);
+  j->before += j->during;
+  j->during = all;
+  j->begin = j->end;
+  j->end += n;
+  j->pass_start = clock_seconds();
+  return all > 0;
+}
+
+static double error_so_far(const job *j) {
+  const render_guide *g = j->set->guide;
+  return g != NULL ? g->error(g->self) : film_error(&j->color);
 }
 
 static void make_films(job *j, arena *mem) {
   const render_settings *s = j->set;
   int w = j->width, h = j->height;
-  bool squares = s->error > 0 || s->progress != NULL ||
+  bool squares = (s->guide == NULL && (s->error > 0 || s->progress != NULL)) ||
                  (s->aovs & RENDER_AOV_VARIANCE) != 0;
   j->color = film_new(mem, w, h, squares);
   if (s->aovs & RENDER_AOV_NORMAL) j->first.normal = film_new(mem, w, h, false);
@@ -278,16 +319,29 @@ static image samples_image(const film *f, arena *mem) {
   return out;
 }
 
+// A picture of what the guide says of each pixel.
+static image guided_image(const job *j, vec3 (*of)(const void *, size_t),
+                          arena *mem) {
+  image out = image_new(mem, j->width, j->height);
+  for (size_t i = 0; i < (size_t)j->width * (size_t)j->height; i++)
+    out.pixels[i] = of(j->set->guide->self, i);
+  return out;
+}
+
 // Images in the order of the bits of render_settings.aovs.
 static void make_images(render_result *out, const job *j, arena *mem) {
   const film *of[RENDER_AOV_COUNT] = {&j->first.normal, &j->first.depth,
                                       &j->first.albedo, NULL, NULL};
-  out->color = film_image(&j->color, mem);
+  const render_guide *g = j->set->guide;
+  bool guided = g != NULL && g->mean != NULL;
+  out->color =
+      guided ? guided_image(j, g->mean, mem) : film_image(&j->color, mem);
   for (int i = 0; i < RENDER_AOV_COUNT; i++)
     if (of[i] != NULL && of[i]->sum != NULL)
       out->aov[i] = film_image(of[i], mem);
   if (j->set->aovs & RENDER_AOV_VARIANCE)
-    out->aov[3] = film_variance_image(&j->color, mem);
+    out->aov[3] = guided ? guided_image(j, g->variance, mem)
+                         : film_variance_image(&j->color, mem);
   if (j->set->aovs & RENDER_AOV_SAMPLES)
     out->aov[4] = samples_image(&j->color, mem);
 }
@@ -298,7 +352,7 @@ static void hand_snapshot(const job *j) {
   if (s->snapshot == NULL || !*s->snapshot) return;
   *s->snapshot = 0;
   arena once = {0};
-  render_result so_far = {.spp = j->end, .error = j->error};
+  render_result so_far = {.spp = spp_so_far(j), .error = j->error};
   so_far.seconds = clock_seconds() - j->start;
   make_images(&so_far, j, &once);
   s->on_snapshot(s->snapshot_context, &so_far);
@@ -306,12 +360,10 @@ static void hand_snapshot(const job *j) {
 }
 
 static void render_passes(job *j, pool *threads) {
-  for (int n; (n = pass_samples(j)) > 0;) {
-    j->begin = j->end;
-    j->end += n;
+  while (plan_pass(j)) {
     atomic_store(&j->done, 0);
     pool_run(threads, (size_t)j->tile_count, render_tile, j);
-    j->error = film_error(&j->color);
+    j->error = error_so_far(j);
     hand_snapshot(j);
   }
   if (j->set->progress != NULL) tell_progress(j, clock_seconds());
@@ -328,7 +380,7 @@ void render_run(render_result *out, const path_world *world,
   j.height = crop ? s->y1 - s->y0 : s->height;
   j.tiles_across = (j.width + TILE - 1) / TILE;
   j.tile_count = j.tiles_across * ((j.height + TILE - 1) / TILE);
-  j.farthest = farthest_depth(world->scene, view);
+  j.farthest = first_hit_farthest(world->scene, view);
   j.last_progress = j.start;
   arena scratch = {0};
   path_naive naive = {world, s->seed};
@@ -337,8 +389,8 @@ void render_run(render_result *out, const path_world *world,
   j.team = hire_workers(&j, &scratch);
   make_films(&j, &scratch);
   render_passes(&j, threads);
-  *out = (render_result){.spp = j.end, .error = j.error};
-  out->stopped = s->stop != NULL && *s->stop && j.end < s->spp;
+  *out = (render_result){.spp = spp_so_far(&j), .error = j.error};
+  out->stopped = s->stop != NULL && *s->stop && out->spp < s->spp;
   sum_tallies(out, &j);
   make_images(out, &j, mem);
   arena_free(&scratch);

@@ -6,6 +6,7 @@
 
 #include "path_naive.h"
 #include "pool.h"
+#include "render_guide.h"
 
 #include <signal.h>
 
@@ -41,7 +42,7 @@ typedef struct render_progress {
 typedef struct render_result {
   image color;                  // of the crop window
   image aov[RENDER_AOV_COUNT];  // pixels NULL where not asked for
-  int spp;                      // samples every pixel got
+  int spp;                      // samples a pixel, on average
   double seconds;
   double error;  // estimated relative error, 0: not estimated
   uint64_t rays, samples;
@@ -59,8 +60,9 @@ typedef struct render_settings {
   const integrator *by;  // NULL: path_naive with that seed
   render_shading shading;
   unsigned aovs;
-  double deadline;  // CLOCK_MONOTONIC seconds to stop at; 0: none
-  double error;     // stop at this estimated relative error; 0: never
+  double deadline;            // CLOCK_MONOTONIC seconds to stop at; 0: none
+  double error;               // stop at this estimated relative error; 0: never
+  const render_guide *guide;  // NULL: none
   const volatile sig_atomic_t *stop;  // finish the pass when it turns non-zero
   void (*progress)(void *context, const render_progress *p);  // may be NULL
   void *progress_context;

@@ -1,0 +1,237 @@
+// adaptive.c — the trick: each half of a tile's samples is as many as the
+// *other* half says that are needed.  A half that has not met the lamp yet
+// cannot end its own search, so that neither mean is biased by the decision.
+
+#include "adaptive.h"
+
+#include "halves.h"
+
+// Samples of each half in the first round, from which tiles are told apart.
+enum { PILOT = 8 };
+
+// How much a round may add to the whole picture, and to one tile.
+#define GROWTH_MIN 1.1
+#define GROWTH_MAX 1.6
+#define TILE_GROWTH 3.0
+
+// No tile gets less than this share of the average: what a tile's few samples
+// have missed must stay likely to be found.
+#define LEAST_SHARE 0.125
+
+// Samples of each half: so many there are, at the end of this pass, and at the
+// end of the round.
+typedef struct tile_state {
+  uint32_t taken[2], pass[2], round[2];
+  double need[2];  // standard deviation of a sample, by the other half
+  double pixels;
+} tile_state;
+
+struct adaptive {
+  adaptive_settings set;
+  halves halves;
+  tile_state *tiles;
+  size_t tile_count;
+  int tiles_across;
+  double error;  // after the last round
+};
+
+adaptive *adaptive_new(const adaptive_settings *s, arena *mem) {
+  adaptive *a = ARENA_NEW(mem, adaptive, 1);
+  a->set = *s;
+  a->halves = halves_new(mem, s->width, s->height);
+  a->tiles_across = (s->width + RENDER_TILE - 1) / RENDER_TILE;
+  int down = (s->height + RENDER_TILE - 1) / RENDER_TILE;
+  a->tile_count = (size_t)a->tiles_across * (size_t)down;
+  a->tiles = ARENA_NEW(mem, tile_state, a->tile_count);
+  return a;
+}
+
+// The part of the window that a tile is.
+static film_box box_of(const adaptive *a, size_t tile) {
+  int x = (int)tile % a->tiles_across * RENDER_TILE;
+  int y = (int)tile / a->tiles_across * RENDER_TILE;
+  int x1 = x + RENDER_TILE, y1 = y + RENDER_TILE;
+  return (film_box){x, y, x1 < a->set.width ? x1 : a->set.width,
+                    y1 < a->set.height ? y1 : a->set.height};
+}
+
+// What each half of a tile says of the spread of a sample, for the other.
+static void ask_tile(adaptive *a, size_t tile) {
+  tile_state *t = &a->tiles[tile];
+  film_box box = box_of(a, tile);
+  t->pixels = (double)(box.x1 - box.x0) * (double)(box.y1 - box.y0);
+  for (int k = 0; k < 2; k++) {
+    const film *other = &a->halves.half[1 - k];
+    double of_mean = film_box_error(other, &box) / (3 * t->pixels);
+    t->need[k] = sqrt(of_mean * (double)t->taken[1 - k]);
+  }
+}
+
+static double samples_taken(const adaptive *a) {
+  double sum = 0;
+  for (size_t i = 0; i < a->tile_count; i++) {
+    const tile_state *t = &a->tiles[i];
+    sum += t->pixels * (double)(t->taken[0] + t->taken[1]);
+  }
+  return sum;
+}
+
+static double all_pixels(const adaptive *a) {
+  return (double)a->set.width * (double)a->set.height;
+}
+
+// The number of samples of one half of a tile for a price: the variance of a
+// mean falls by need^2 / n^2 for one sample more, so that n = price * need
+// spends every sample where it buys most.
+static uint32_t fair_number(const tile_state *t, int half, double price,
+                            double least) {
+  double taken = (double)t->taken[half];
+  double n = fmin(fmax(price * t->need[half], least), TILE_GROWTH * taken);
+  return (uint32_t)(fmax(n, taken) + 0.5);
+}
+
+// Set the ends of the round for a price; how many samples the picture has then.
+static double set_round(adaptive *a, double price, double least) {
+  double sum = 0;
+  for (size_t i = 0; i < a->tile_count; i++) {
+    tile_state *t = &a->tiles[i];
+    for (int k = 0; k < 2; k++) {
+      t->round[k] = fair_number(t, k, price, least);
+      sum += t->pixels * (double)t->round[k];
+    }
+  }
+  return sum;
+}
+
+// A round that brings the picture to about `goal` samples: the price is found
+// by halving an interval.
+static void plan_round(adaptive *a, double goal) {
+  double least = LEAST_SHARE * goal / (2 * all_pixels(a));
+  double low = 0, high = 1;
+  for (size_t i = 0; i < a->tile_count; i++)
+    ask_tile(a, i);
+  while (set_round(a, high, least) < goal && high < 1e12)
+    low = high, high *= 2;
+  for (int i = 0; i < 30; i++) {
+    double mid = (low + high) / 2;
+    if (set_round(a, mid, least) < goal)
+      low = mid;
+    else
+      high = mid;
+  }
+  // Where no price helps, as all tiles grow as fast as they may or none needs
+  // anything, everything grows alike.
+  double taken = samples_taken(a);
+  if (set_round(a, high, least) > taken) return;
+  for (size_t i = 0; i < a->tile_count; i++)
+    for (int k = 0; k < 2; k++)
+      a->tiles[i].round[k] = a->tiles[i].taken[k] + 1;
+}
+
+static void plan_first(adaptive *a) {
+  double half = fmin(PILOT, fmax(floor(a->set.most / 2), 1));
+  for (size_t i = 0; i < a->tile_count; i++) {
+    ask_tile(a, i);
+    a->tiles[i].round[0] = a->tiles[i].round[1] = (uint32_t)half;
+  }
+  if (a->set.most < 2)
+    for (size_t i = 0; i < a->tile_count; i++)
+      a->tiles[i].round[1] = 0;
+}
+
+// By how much the picture's samples should grow: as the error asks, which
+// falls as their root, within limits, and as time and --spp allow.
+static double growth(const adaptive *a, double taken, const render_budget *b) {
+  double g = GROWTH_MAX;
+  if (a->set.error > 0) {
+    double off = a->error / a->set.error;
+    g = fmin(fmax(1.02 * off * off, GROWTH_MIN), GROWTH_MAX);
+  }
+  g = fmin(g, 1 + b->left / taken);
+  return fmin(g, a->set.most * all_pixels(a) / taken);
+}
+
+// Begin the next round; false when the picture is good enough, or has all the
+// samples that it may have.
+static bool next_round(adaptive *a, const render_budget *b) {
+  double taken = samples_taken(a);
+  if (!(taken > 0)) {
+    plan_first(a);
+    return true;
+  }
+  a->error = halves_error(&a->halves);
+  bool known = a->error > 0 || a->tiles[0].taken[1] > 0;
+  if (a->set.error > 0 && known && a->error <= a->set.error) return false;
+  double g = growth(a, taken, b);
+  if (g * taken < taken + all_pixels(a) / 4) return false;
+  plan_round(a, g * taken);
+  return true;
+}
+
+// What is missing until the end of the round, in samples.
+static double round_left(const adaptive *a) {
+  double sum = 0;
+  for (size_t i = 0; i < a->tile_count; i++) {
+    const tile_state *t = &a->tiles[i];
+    for (int k = 0; k < 2; k++)
+      sum += t->pixels * (double)(t->round[k] - t->taken[k]);
+  }
+  return sum;
+}
+
+// A pass is a part of the round, the same share of what each tile is to get.
+static double adaptive_plan(void *self, const render_budget *b) {
+  adaptive *a = self;
+  for (size_t i = 0; i < a->tile_count; i++)
+    for (int k = 0; k < 2; k++)
+      a->tiles[i].taken[k] = a->tiles[i].pass[k];
+  if (!(round_left(a) > 0) && !next_round(a, b)) return 0;
+  double share = fmin(b->pass / round_left(a), 1), sum = 0;
+  for (size_t i = 0; i < a->tile_count; i++) {
+    tile_state *t = &a->tiles[i];
+    for (int k = 0; k < 2; k++) {
+      double more = ceil(share * (double)(t->round[k] - t->taken[k]));
+      t->pass[k] = t->taken[k] + (uint32_t)more;
+      sum += more * t->pixels;
+    }
+  }
+  return sum;
+}
+
+static bool adaptive_next(void *self, size_t tile, uint32_t *at,
+                          uint32_t *sample) {
+  const tile_state *t = &((adaptive *)self)->tiles[tile];
+  uint32_t first = t->pass[0] - t->taken[0], k = (*at)++;
+  if (k < first)
+    *sample = 2 * (t->taken[0] + k);
+  else
+    *sample = 2 * (t->taken[1] + k - first) + 1;
+  return k < first + t->pass[1] - t->taken[1];
+}
+
+static void adaptive_add(void *self, size_t pixel, uint32_t sample,
+                         vec3 color) {
+  halves_add(&((adaptive *)self)->halves, pixel, sample, color);
+}
+
+static double adaptive_error(void *self) {
+  return halves_error(&((adaptive *)self)->halves);
+}
+
+static vec3 adaptive_mean(const void *self, size_t pixel) {
+  return halves_mean(&((const adaptive *)self)->halves, pixel);
+}
+
+static vec3 adaptive_variance(const void *self, size_t pixel) {
+  return halves_variance(&((const adaptive *)self)->halves, pixel);
+}
+
+render_guide adaptive_guide(adaptive *a) {
+  return (render_guide){a,
+                        adaptive_plan,
+                        adaptive_next,
+                        adaptive_add,
+                        adaptive_error,
+                        adaptive_mean,
+                        adaptive_variance};
+}

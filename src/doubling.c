@@ -1,0 +1,102 @@
+// doubling.c
+
+#include "doubling.h"
+
+#include "two_means.h"
+
+#include <math.h>
+
+struct doubling {
+  film all;
+  vec3 *whole, *half;  // sums of the first 2^k samples, 2^k the last power of
+                       // two that was passed, and of the 2^(k-1) before that
+};
+
+doubling *doubling_new(arena *mem, int width, int height) {
+  doubling *d = ARENA_NEW(mem, doubling, 1);
+  size_t n = (size_t)width * (size_t)height;
+  d->all = film_new(mem, width, height, true);
+  d->whole = ARENA_NEW(mem, vec3, n);
+  d->half = ARENA_NEW(mem, vec3, n);
+  return d;
+}
+
+static vec3 sum_of(const film *f, size_t i) {
+  const double *s = f->sum[i];
+  return (vec3){(float)s[0], (float)s[1], (float)s[2]};
+}
+
+static void doubling_add(void *self, size_t i, uint32_t sample, vec3 color) {
+  doubling *d = self;
+  uint32_t n = d->all.count[i];
+  if (n > 0 && (n & (n - 1)) == 0) {
+    d->half[i] = d->whole[i];
+    d->whole[i] = sum_of(&d->all, i);
+  }
+  film_add(&d->all, i, color);
+  (void)sample;
+}
+
+// The largest power of two that is at most n > 0.
+static uint32_t power_below(uint32_t n) {
+  uint32_t p = 1;
+  while (p <= n / 2)
+    p *= 2;
+  return p;
+}
+
+// The means of the first and the second half of the first 2^k samples, and the
+// variance of one sample.
+static bool doubling_pixel(const void *self, size_t i, two_means_pixel *out) {
+  const doubling *d = self;
+  uint32_t n = d->all.count[i], m = power_below(n);
+  if (n < 2) return false;
+  vec3 whole = n == m ? sum_of(&d->all, i) : d->whole[i];
+  vec3 half = n == m ? d->whole[i] : d->half[i];
+  float w[3] = {whole.x, whole.y, whole.z}, h[3] = {half.x, half.y, half.z};
+  vec3 variance = film_variance(&d->all, i);
+  out->other[0] = (double)variance.x * n;
+  out->other[1] = (double)variance.y * n;
+  out->other[2] = (double)variance.z * n;
+  for (int c = 0; c < 3; c++) {
+    out->a[c] = (double)h[c] / (m / 2);
+    out->b[c] = (double)(w[c] - h[c]) / (m / 2);
+  }
+  return true;
+}
+
+// The rate r at which variance falls by doubling, if it always was the same:
+// a difference of r^(k-1) (1 - r) of the variance of one sample is left after k
+// doublings.  Limits: r = 1/2 is chance, 1/8 is as smooth as it gets.
+static double rate_of(double left, int k) {
+  double low = 0.125, high = 0.5;
+  for (int i = 0; i < 40; i++) {
+    double r = (low + high) / 2;
+    if (pow(r, k - 1) * (1 - r) > left)
+      high = r;
+    else
+      low = r;
+  }
+  return (low + high) / 2;
+}
+
+static double doubling_error(void *self) {
+  const doubling *d = self;
+  two_means t = {d->all.width, d->all.height, d, doubling_pixel};
+  two_means_sums s = two_means_measure(&t);
+  uint32_t n = d->all.count[0], m = n > 0 ? power_below(n) : 0;
+  if (!(s.other > 0) || m < 2) return 0;
+  int k = 0;
+  while (1u << (k + 1) <= m)
+    k++;
+  double r = rate_of(s.square / s.other, k);
+  // E[((a - b) / 2)^2] = V(k-1) - V(k) = V(k) (1 - r) / r, and from there on to
+  // n samples.
+  double at_power = s.square * r / (1 - r);
+  return sqrt(at_power * pow((double)m / n, -log2(r)));
+}
+
+render_guide doubling_guide(doubling *d) {
+  return (render_guide){
+      .self = d, .add = doubling_add, .error = doubling_error};
+}

@@ -1,0 +1,40 @@
+// render_guide.h — whoever watches a picture grow, and may say where samples
+// go.
+
+#ifndef RENDER_GUIDE_H
+#define RENDER_GUIDE_H
+
+#include "vec.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+// Pixels a side of a tile, the item of work of a thread.  Tiles are numbered
+// row by row from the upper left corner of the window.
+enum { RENDER_TILE = 16 };
+
+// Samples (one is one of one pixel) for which there is time.
+typedef struct render_budget {
+  double pass;  // before somebody wants to see something
+  double left;  // before the deadline; INFINITY without one
+} render_budget;
+
+// Members may be NULL: without plan, every pixel gets the same samples; without
+// mean, a pixel is the mean of its samples.  Pixels are numbered in the window.
+typedef struct render_guide {
+  void *self;
+  // Plan a pass; how many samples it has, 0 when it is enough.  No other call
+  // is under way.
+  double (*plan)(void *self, const render_budget *b);
+  // The next sample that every pixel of the tile gets in this pass; false when
+  // the tile is done.  *at is 0 at first and the guide's after that.
+  bool (*next)(void *self, size_t tile, uint32_t *at, uint32_t *sample);
+  // Told of every sample by the worker that has the tile.
+  void (*add)(void *self, size_t pixel, uint32_t sample, vec3 color);
+  // The picture's relative error so far; 0: not known.
+  double (*error)(void *self);
+  vec3 (*mean)(const void *self, size_t pixel);
+  vec3 (*variance)(const void *self, size_t pixel);
+} render_guide;
+
+#endif

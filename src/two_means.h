@@ -1,0 +1,33 @@
+// two_means.h — how wrong a picture is, by how far two pictures of the same
+// thing are apart.
+
+#ifndef TWO_MEANS_H
+#define TWO_MEANS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+// A pixel, by channel: two means with the same expectation and errors that
+// know nothing of each other; and something else to be averaged like the
+// error.
+typedef struct two_means_pixel {
+  double a[3], b[3], other[3];
+} two_means_pixel;
+
+// Whoever knows the pixels, row by row; false where one has no two means yet.
+typedef struct two_means {
+  int width, height;
+  const void *self;
+  bool (*pixel)(const void *self, size_t i, two_means_pixel *out);
+} two_means;
+
+// Averages over pixels and channels of x / (radiance^2 + 0.01).
+typedef struct two_means_sums {
+  double square;  // x = ((a - b) / 2)^2: estimates relMSE of (a + b) / 2
+  double other;   // x = other
+} two_means_sums;
+
+// Both 0 when no pixel has two means.
+two_means_sums two_means_measure(const two_means *t);
+
+#endif
