@@ -104,8 +104,8 @@ static double set_round(adaptive *a, double price, double least) {
 }
 
 // A round that brings the picture to about `goal` samples: the price is found
-// by halving an interval.
-static void plan_round(adaptive *a, double goal) {
+// by halving an interval.  False where there is no such round.
+static bool plan_round(adaptive *a, double goal) {
   double least = LEAST_SHARE * goal / (2 * all_pixels(a));
   double low = 0, high = 1;
   for (size_t i = 0; i < a->tile_count; i++)
@@ -122,10 +122,12 @@ static void plan_round(adaptive *a, double goal) {
   // Where no price helps, as all tiles grow as fast as they may or none needs
   // anything, everything grows alike.
   double taken = samples_taken(a);
-  if (set_round(a, high, least) > taken) return;
+  if (set_round(a, high, least) > taken) return true;
+  if (taken + 2 * all_pixels(a) > goal) return false;
   for (size_t i = 0; i < a->tile_count; i++)
     for (int k = 0; k < 2; k++)
       a->tiles[i].round[k] = a->tiles[i].taken[k] + 1;
+  return true;
 }
 
 static void plan_first(adaptive *a) {
@@ -164,8 +166,7 @@ static bool next_round(adaptive *a, const render_budget *b) {
   if (a->set.error > 0 && known && a->error <= a->set.error) return false;
   double g = growth(a, taken, b);
   if (g * taken < taken + all_pixels(a) / 4) return false;
-  plan_round(a, g * taken);
-  return true;
+  return plan_round(a, g * taken);
 }
 
 // What is missing until the end of the round, in samples.

@@ -152,6 +152,22 @@ import json, sys
 j = json.load(sys.stdin)
 assert 0 < j[\"error\"] <= 0.05 and j[\"spp\"] >= 16, j'"
 
+for threads in 1 2 7; do
+  "$facet" render -q $path a.obj -r 40x24 --error 0.005 -j $threads --aov samples -o e$threads.pfm
+done
+ok "--error: the same bytes for any threads" sh -c "cmp e1.pfm e2.pfm && cmp e1.pfm e7.pfm"
+"$facet" render -q $path a.obj -r 40x24 --error 0.005 --json -o e1.pfm >e.json
+ok "samples go where they are needed, and are counted" python3 - <<'E'
+import array, json
+data = open("e1.samples.pfm", "rb").read().split(b"\n", 3)[3]
+counts = array.array("f", data)[::3]
+j = json.load(open("e.json"))
+assert sum(counts) == j["samples"] and min(counts) >= 16 and max(counts) > 1.2 * min(counts), (min(counts), max(counts))
+assert abs(j["spp"] - sum(counts) / len(counts)) <= 0.5
+E
+exits 0 "--spp limits --error" "$facet" render -q $path a.obj -r 40x24 --error 1e-9 --spp 20 --json -o e.pfm
+ok "and on average it is kept" python3 -c 'import json; assert 18 <= json.load(open("'"$T/out"'"))["spp"] <= 21'
+
 # Warnings.
 { echo "mtllib nowhere.mtl"; cat a.obj; } >w.obj
 exits 0 "a missing library is a warning" "$facet" render $path w.obj -r 8x8 --spp 1
