@@ -1,7 +1,13 @@
 // figures.c — the pictures of chapter 15.
 
+#include "adaptive.h"
+#include "doubling.h"
+#include "halves.h"
+#include "path.h"
 #include "picture.h"
 #include "plot.h"
+#include "render.h"
+#include "wide.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,14 +16,23 @@
 typedef struct output {
   const char *folder;
   arena mem;
+  pool *threads;
 } output;
+
+static void give_up(const error *err) {
+  fprintf(stderr, "%s\n", err->text);
+  exit(4);
+}
 
 static void publish(output *o, const char *name, image im) {
   error err;
   const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (picture_write(&im, path, PICTURE_PNG, 8, &err)) return;
-  fprintf(stderr, "%s\n", err.text);
-  exit(4);
+  if (!picture_write(&im, path, PICTURE_PNG, 8, &err)) give_up(&err);
+}
+
+static void publish_plot(output *o, const char *name, const plot *p) {
+  sketch s = plot_sketch(p, &o->mem);
+  publish(o, name, sketch_image(&s, &o->mem));
 }
 
 // The font, in two sizes and two directions.
@@ -36,10 +51,242 @@ static void draw_letters(output *o) {
   publish(o, "letters", sketch_image(&s, &o->mem));
 }
 
+// A picture of pixels with an edge through each: below the line it is 1.
+enum { EDGE_SIDE = 64, EDGE_PIXELS = EDGE_SIDE * EDGE_SIDE };
+
+typedef struct edge {
+  double slope, height;  // y < height - slope x, which stays within the pixel
+} edge;
+
+static edge edge_of(size_t i) {
+  rng r = rng_of(15, i, 0);
+  double slope = 0.2 + 0.6 * (double)rng_next(&r);
+  return (edge){slope, slope + (1 - slope) * (double)rng_next(&r)};
+}
+
+static double edge_truth(size_t i) {
+  edge e = edge_of(i);
+  return e.height - e.slope / 2;
+}
+
+static vec3 edge_sample(size_t i, uint64_t key, uint32_t sample) {
+  edge e = edge_of(i);
+  sampler s = sampler_of(SAMPLER_SOBOL, 1, key, sample);
+  vec2 u = sampler_2(&s);
+  return vec3_all((double)u.y < e.height - e.slope * (double)u.x ? 1 : 0);
+}
+
+static double edge_error(vec3 (*mean)(const void *, size_t), const void *of) {
+  double sum = 0;
+  for (size_t i = 0; i < EDGE_PIXELS; i++) {
+    double t = edge_truth(i), d = (double)mean(of, i).x - t;
+    sum += d * d / (t * t + 0.01);
+  }
+  return sqrt(sum / EDGE_PIXELS);
+}
+
+static vec3 mean_of_film(const void *f, size_t i) {
+  return film_mean(f, i);
+}
+
+static vec3 mean_of_halves(const void *h, size_t i) {
+  return halves_mean(h, i);
+}
+
+enum { EDGE_STEPS = 9 };
+
+// The three estimates, each over its own picture's error.
+static void draw_estimates(output *o) {
+  double x[EDGE_STEPS], y[3][EDGE_STEPS];
+  film f = film_new(&o->mem, EDGE_SIDE, EDGE_SIDE, true);
+  halves h = halves_new(&o->mem, EDGE_SIDE, EDGE_SIDE);
+  render_guide d = doubling_guide(doubling_new(&o->mem, EDGE_SIDE, EDGE_SIDE));
+  uint32_t done = 0;
+  for (int k = 0; k < EDGE_STEPS; k++) {
+    uint32_t n = 2u << k;
+    for (size_t i = 0; i < EDGE_PIXELS; i++)
+      for (uint32_t s = done; s < n; s++) {
+        vec3 sample = edge_sample(i, i, s);
+        film_add(&f, i, sample);
+        d.add(d.self, i, s, sample);
+        halves_add(&h, i, s, edge_sample(i, i + (s & 1) * EDGE_PIXELS, s >> 1));
+      }
+    done = n;
+    double whole = edge_error(mean_of_film, &f);
+    x[k] = n;
+    y[0][k] = film_error(&f) / whole;
+    y[1][k] = d.error(d.self) / whole;
+    y[2][k] = halves_error(&h) / edge_error(mean_of_halves, &h);
+    printf("%4u samples: variance %.3f, doubling %.3f, halves %.3f of the true "
+           "error\n",
+           n, y[0][k], y[1][k], y[2][k]);
+  }
+  plot_series series[] = {{"variance / N", plot_color(1), PLOT_DISC,
+                           .n = EDGE_STEPS, .x = x, .y = y[0]},
+                          {"doubling", plot_color(0), PLOT_SQUARE,
+                           .n = EDGE_STEPS, .x = x, .y = y[1]},
+                          {"halves", plot_color(2), PLOT_DIAMOND,
+                           .n = EDGE_STEPS, .x = x, .y = y[2]}};
+  plot p = {.width = 440,
+            .height = 280,
+            .x = {.label = "samples a pixel", .log = true},
+            .y = {.label = "printed / true error", .from = 0, .to = 6},
+            .series = series,
+            .count = 3};
+  publish_plot(o, "estimates", &p);
+}
+
+// A tile of 16 pixels that shines once in 256 samples, then with 256: how many
+// of n samples do, and their mean.
+typedef struct sparks {
+  rng random;
+  uint32_t taken, met;
+} sparks;
+
+static void take_sparks(sparks *s, uint32_t until) {
+  for (; s->taken < until; s->taken++)
+    s->met += rng_next(&s->random) < 1.0f / 256;
+}
+
+static double spark_mean(const sparks *s) {
+  return 256.0 * (double)s->met / (double)s->taken;
+}
+
+// The number of samples that a variance calls for: 128 at least, and up to 16
+// times as many.
+static uint32_t sparks_wanted(const sparks *s, double price) {
+  double p = (double)s->met / (double)s->taken;
+  double n = price * 256 * sqrt(p * (1 - p));
+  return (uint32_t)fmin(fmax(n, 128), 2048);
+}
+
+// Averages over many tiles: of the mean, where each half decides for itself
+// and where the other one does, and of the samples a pixel.
+static void spark_means(double price, double own_and_other[2], double *spp) {
+  enum { TILES = 40000 };
+  double sum[2] = {0, 0}, samples = 0;
+  for (uint64_t t = 0; t < TILES; t++)
+    for (int other = 0; other < 2; other++) {
+      sparks half[2] = {{rng_of(16, t, 0), 0, 0}, {rng_of(16, t, 1), 0, 0}};
+      for (int k = 0; k < 2; k++)
+        take_sparks(&half[k], 128);
+      uint32_t n[2] = {sparks_wanted(&half[0], price),
+                       sparks_wanted(&half[1], price)};
+      for (int k = 0; k < 2; k++)
+        take_sparks(&half[k], n[other ? 1 - k : k]);
+      if (other == 0) samples += half[0].taken + half[1].taken;
+      sum[other] += (spark_mean(&half[0]) + spark_mean(&half[1])) / 2;
+    }
+  own_and_other[0] = sum[0] / TILES, own_and_other[1] = sum[1] / TILES;
+  *spp = samples / TILES / 16;
+}
+
+static void draw_bias(output *o) {
+  enum { STEPS = 7 };
+  double x[STEPS], y[2][STEPS], mean[2];
+  for (int k = 0; k < STEPS; k++) {
+    spark_means(pow(2, k) * 2, mean, &x[k]);
+    y[0][k] = mean[0], y[1][k] = mean[1];
+    printf("%5.1f samples: own decision %.4f, the other half's %.4f\n", x[k],
+           mean[0], mean[1]);
+  }
+  plot_series series[] = {{"decides for itself", plot_color(1), PLOT_DISC,
+                           .n = STEPS, .x = x, .y = y[0]},
+                          {"the other half decides", plot_color(0), PLOT_SQUARE,
+                           .n = STEPS, .x = x, .y = y[1]}};
+  plot p = {.width = 460,
+            .height = 260,
+            .x = {.label = "samples a pixel", .log = true},
+            .y = {.label = "mean (truth: 1)", .from = 0.3, .to = 1.2},
+            .series = series,
+            .count = 2};
+  publish_plot(o, "bias", &p);
+}
+
+// Everything that tracing the garden takes.
+typedef struct garden {
+  scene scene;
+  bvh binary;
+  wide_tree tree;
+  path_world world;
+  light_set lights;
+  path_tracer tracer;
+  integrator by, twice;
+  halves_walk halves;
+  render_guide guide;
+  render_settings settings;
+} garden;
+
+enum { GARDEN_WIDTH = 228, GARDEN_HEIGHT = 144 };
+
+static void garden_ready(output *o, garden *g) {
+  error err;
+  scene_options so = {0};
+  if (!scene_load(&g->scene, "scenes/garden.scene", &so, &o->mem, o->threads,
+                  NULL, &err))
+    give_up(&err);
+  const mesh *m = &g->scene.mesh;
+  bvh_build(&g->binary, m->positions, m->position_index,
+            (uint32_t)m->triangle_count, BVH_SAH, &o->mem, o->threads);
+  wide_tree_build(&g->tree, &g->binary, &o->mem, o->threads);
+  g->world = (path_world){
+      .scene = &g->scene, .tracer = wide_tracer(&g->tree), .lights = true};
+  g->world.dfg = matter_table(&g->scene, PBR_GGX, &o->mem, o->threads);
+  light_set_build(&g->lights, &g->scene, true, true, &o->mem, o->threads);
+  g->tracer = (path_tracer){
+      .world = &g->world, .lights = &g->lights, .sampler = SAMPLER_SOBOL};
+  g->by = path_integrator(&g->tracer);
+  g->halves = (halves_walk){&g->by, GARDEN_WIDTH * GARDEN_HEIGHT};
+  g->twice = halves_integrator(&g->halves);
+  adaptive_settings a = {GARDEN_WIDTH, GARDEN_HEIGHT, 0.08, 1e6};
+  g->guide = adaptive_guide(adaptive_new(&a, &o->mem));
+  g->settings = (render_settings){.width = GARDEN_WIDTH,
+                                  .height = GARDEN_HEIGHT,
+                                  .spp = 1 << 20,
+                                  .by = &g->twice,
+                                  .aovs = RENDER_AOV_SAMPLES,
+                                  .guide = &g->guide,
+                                  .error = a.error};
+}
+
+static void draw_samples(output *o) {
+  error err;
+  garden *g = ARENA_NEW(&o->mem, garden, 1);
+  garden_ready(o, g);
+  camera_view view;
+  render_result r;
+  if (!camera_view_of(&view, &g->scene.cameras[0], GARDEN_WIDTH, GARDEN_HEIGHT,
+                      &err))
+    give_up(&err);
+  render_run(&r, &g->world, &view, &g->settings, &o->mem, o->threads);
+  image out = image_new(&o->mem, 2 * GARDEN_WIDTH + 4, GARDEN_HEIGHT);
+  float gain = exp2f(g->scene.exposure);
+  for (int y = 0; y < GARDEN_HEIGHT; y++)
+    for (int x = 0; x < out.width; x++) {
+      int u = x < GARDEN_WIDTH ? x : x - GARDEN_WIDTH - 4;
+      vec3 *p = &out.pixels[y * out.width + x];
+      if (u < 0 || (x >= GARDEN_WIDTH && x < GARDEN_WIDTH + 4)) {
+        *p = vec3_all(1);
+        continue;
+      }
+      int i = y * GARDEN_WIDTH + u;
+      double n = log2((double)r.aov[4].pixels[i].x / 16) / 3;
+      *p = x < GARDEN_WIDTH ? vec3_scale(r.color.pixels[i], gain)
+                            : vec3_all((float)srgb_decode(fmin(n, 1)));
+    }
+  printf("garden: %d samples a pixel on average, error %.4f\n", r.spp, r.error);
+  publish(o, "samples", out);
+}
+
 int main(int argc, char **argv) {
   if (argc != 2) return 2;
   output o = {.folder = argv[1]};
+  o.threads = pool_new(&o.mem, pool_default_threads());
   draw_letters(&o);
+  draw_estimates(&o);
+  draw_bias(&o);
+  draw_samples(&o);
+  pool_free(o.threads);
   arena_free(&o.mem);
   return 0;
 }
