@@ -103,9 +103,7 @@ nearest "bench lod a.obj" "bench load"
 nearest "a.obj" "facet render a.obj"
 for later in merge "render a.obj --resume" \
   "render a.obj --checkpoint x" "render a.obj --every 3" "render a.obj --shard 0/2" \
-  "render a.obj --explain" \
-  "render a.obj --integrator mis" \
-  "render a.obj --sampler sobol"; do
+  "render a.obj --explain"; do
   # shellcheck disable=SC2086
   "$facet" $later >"$T/out" 2>"$T/err"
   [ $? = 2 ] && grep -q "not in this version" "$T/err" || { fail "$later"; continue; }
