@@ -45,7 +45,7 @@ CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
 CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_world vertex path_naive film first_hit render_guide render
 CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
               light_bound light_tree light_tree_build light_emission light path
-CHAPTER_11 := $(CHAPTER_10)
+CHAPTER_11 := $(CHAPTER_10) lean raster_lean
 CHAPTER_12 := $(CHAPTER_11) simd_base simd_avx2 simd wide_cost wide_tree \
              wide_levels wide_box wide_edges wide_distance wide_leaf wide_single wide_push \
              wide_flight wide_stream wide_kernel wide_base wide_avx2 wide_avx512 wide \
@@ -54,7 +54,7 @@ CHAPTER_12 := $(CHAPTER_11) simd_base simd_avx2 simd wide_cost wide_tree \
 CHAPTER_14 := $(CHAPTER_12) post view_state view_script view_paths view_window
 CHAPTER_15 := $(CHAPTER_14) glyph sketch plot two_means halves adaptive doubling
 LIBRARY   := $(CHAPTER_15)
-CHAPTERS  := 1 2 3 4 5 6 7 8 9 12 14 15 17
+CHAPTERS  := 1 2 3 4 5 6 7 8 9 11 12 14 15 17
 # The command line, the only floor that prints and exits.
 COMMAND   := json tonemap progress option_id option_table option cmd_shared cmd_signals \
              cmd_output cmd_tree cmd_shot cmd_raster cmd_render cmd_view_say cmd_view cmd_info_scene \

@@ -1,5 +1,6 @@
 // rough.glsl — metallic-roughness by microfacets, in place of
-// metal_rough.glsl: the twin of bsdf_rough.c.  Needs microfacet.glsl.
+// metal_rough.glsl: the twin of bsdf_rough.c.  Needs microfacet.glsl, and
+// mirrored.glsl or another file that says where lobes look.
 
 // Pairs by sqrt(nv) and sqrt(roughness), and in one more column their means.
 uniform sampler2D u_dfg;
@@ -63,7 +64,9 @@ vec3 matter_ambient(matter m, vec3 n, vec3 wo) {
   vec2 pair = dfg_lookup(nv, m.roughness);
   vec3 kd = s.model == PBR_GGX ? s.kd * (1.0 - dielectric_albedo(pair))
                                : report_kd(s, nv, m.roughness);
+  float f0 = (s.f0.x + s.f0.y + s.f0.z) / 3.0;
+  vec3 towards = lobe_towards(n, wo, f0, m.roughness);
   return kd / PI * ambient_irradiance(n) +
          (s.f0 * pair.x + pair.y) *
-             ambient_radiance(reflect(-wo, n), m.roughness);
+             ambient_radiance(towards, m.roughness);
 }

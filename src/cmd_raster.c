@@ -49,25 +49,40 @@ raster_settings raster_job_settings(const shot *s) {
   };
 }
 
+// An environment that is not the same all around.
+static bool has_env(const shot *s) {
+  return s->scene.env.kind == ENV_SKY || s->scene.env.kind == ENV_MAP;
+}
+
+static bool lobes_lean(const raster_job *job, const shot *s) {
+  return has_env(s) && job->settings.model == RASTER_GGX &&
+         s->o->value[OPT_IBL].words == 0;
+}
+
 // Metallic-roughness as the path engine has it: the table is the same.
 static void ready_rough(raster_job *job, const shot *s) {
   double start = clock_seconds();
   pbr_model model = job->settings.model == RASTER_REPORT ? PBR_REPORT : PBR_GGX;
   if (job->table == NULL)
     job->table = matter_table(&s->scene, model, s->mem, s->threads);
-  job->table_seconds += clock_seconds() - start;
   if (job->table == NULL) return;
   arena scratch = {0};
   job->rough = raster_rough_new(job->g, job->table, &scratch);
   job->settings.metal_rough = raster_rough_piece(&job->rough);
+  if (lobes_lean(job, s)) {
+    lean table;
+    lean_build(&table, &scratch, s->threads);
+    job->lean = raster_lean_new(job->g, &table, &job->rough);
+    job->settings.metal_rough = raster_lean_piece(&job->lean);
+  }
+  job->table_seconds += clock_seconds() - start;
   arena_free(&scratch);
 }
 
-// Light from an environment that is not the same all around.
+// Light from the environment.
 static void ready_env(raster_job *job, const shot *s, arena *mem) {
   const env *e = &s->scene.env;
-  if (e->kind != ENV_SKY && e->kind != ENV_MAP) return;
-  if (job->settings.shading != RASTER_RADIANCE) return;
+  if (!has_env(s) || job->settings.shading != RASTER_RADIANCE) return;
   pbr_model model = job->settings.model == RASTER_REPORT ? PBR_REPORT : PBR_GGX;
   ibl made;
   ibl_need need = raster_env_need(&s->scene, model, job->any_roughness, s->mem);
@@ -129,9 +144,11 @@ void raster_job_json(json *j, const raster_job *job) {
 void raster_job_drop(raster_job *job) {
   if (job->r != NULL) raster_free(job->r);
   if (job->rough.texture != 0) raster_rough_free(job->g, &job->rough);
+  if (job->lean.texture != 0) raster_lean_free(job->g, &job->lean);
   if (job->env.texture != 0) raster_env_free(job->g, &job->env);
   job->r = NULL;
   job->rough = (raster_rough){0};
+  job->lean = (raster_lean){0};
   job->env = (raster_env){0};
 }
 

@@ -7,7 +7,7 @@
 #include "dfg.h"
 #include "raster.h"
 #include "raster_env.h"
-#include "raster_rough.h"
+#include "raster_lean.h"
 #include "render.h"
 
 typedef struct raster_job {
@@ -16,6 +16,7 @@ typedef struct raster_job {
   raster_settings settings;
   const dfg *table;    // of settings.model; NULL where nothing needs it
   raster_rough rough;  // that table, in the context
+  raster_lean lean;    // and where lobes look, if they lean
   int samples;         // a pixel, as the driver allows
   raster_times times;
   double gl_seconds;     // to open the context

@@ -16,6 +16,7 @@ typedef enum option_id {
   OPT_GL,
   OPT_SHADING,
   OPT_PBR_MODEL,
+  OPT_IBL,
   OPT_CAMERA,
   OPT_EYE,
   OPT_TARGET,

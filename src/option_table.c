@@ -137,6 +137,10 @@ const option option_table[OPTION_COUNT] = {
                        OPTION_WORD, "ggx|report", "ggx",
                        .help = "formulas of metallic-roughness: those that "
                                "keep all light, or the course report's"},
+    [OPT_IBL] = {"ibl", 0, DRAWS, OPTION_WORD, "lean|split", "lean",
+                 .help = "where the raster engine looks up what rough metal "
+                         "reflects: along the mean of its lobe (ggx), or along "
+                         "the mirror direction"},
     [OPT_CAMERA] = {"camera", 0, DRAWS, OPTION_TEXT, "NAME",
                     .help =
                         "a camera of the scene file (default: the first, else "

@@ -39,7 +39,8 @@ static void bind_table(const void *context, const gl *g, unsigned program,
 }
 
 raster_piece raster_rough_piece(const raster_rough *r) {
-  return (raster_piece){.shaders = {"microfacet.glsl", "rough.glsl"},
-                        .bind = bind_table,
-                        .context = r};
+  return (raster_piece){
+      .shaders = {"microfacet.glsl", "mirrored.glsl", "rough.glsl"},
+      .bind = bind_table,
+      .context = r};
 }

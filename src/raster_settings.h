@@ -34,7 +34,7 @@ typedef struct raster_piece {
 } raster_piece;
 
 // The first texture units that are free for the pieces' bind.
-enum { RASTER_AMBIENT_UNIT = 11, RASTER_METAL_ROUGH_UNIT = 15 };
+enum { RASTER_AMBIENT_UNIT = 11, RASTER_METAL_ROUGH_UNIT = 14 };
 
 // The most point and directional lights.
 enum { RASTER_MAX_LIGHTS = 32 };
