@@ -37,7 +37,8 @@ CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material \
              statement scene_file mesh_join material_list scene scene_text
 CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah bvh_part bvh_build rays rays_make
 CHAPTER_5 := $(CHAPTER_4) gl_api gl gl_make glsl raster_settings raster_mesh \
-             raster_maps raster_program raster_shadow raster_view raster_pass raster
+             raster_maps raster_program raster_seen raster_shadow raster_view raster_stock \
+             raster_pass raster_once raster
 CHAPTER_6 := $(CHAPTER_5) microfacet dfg bsdf_rough raster_rough
 CHAPTER_7 := $(CHAPTER_6) ibl_level ibl_lobe ibl_wave ibl_source ibl_methods \
              ibl_cache ibl raster_env

@@ -1,7 +1,7 @@
 // first.frag — what a surface looks like by itself: its normal, its depth or
 // its base colour.  FIRST is that of raster_shading.
 
-uniform vec3 u_eye, u_forward;
+uniform vec3 u_forward;
 uniform vec2 u_first;  // scale, and what is added
 
 out vec4 out_color;

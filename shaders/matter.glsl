@@ -1,6 +1,30 @@
 // matter.glsl — a material at a point, its textures looked up: the twin of
 // matter.c.  MAP_KD and so on say which textures there are.
 
+// What scatters light at a point.
+struct matter {
+  vec3 kd, ks;  // kd: the base colour of metallic-roughness
+  vec3 tf;
+  float ns, ni, roughness, metallic;
+};
+
+#ifdef ONCE
+// Row k of the material in the table: kd and roughness; ks and ns; ke and ni; tf
+// and metallic; the last is not for us.
+vec4 matter_row(int k) {
+  return texelFetch(u_materials, 5 * at_material + k);
+}
+
+vec3 matter_emission() {
+  return matter_row(2).rgb;
+}
+
+matter matter_at() {
+  vec4 kd = matter_row(0), ks = matter_row(1), ke = matter_row(2);
+  vec4 tf = matter_row(3);
+  return matter(kd.rgb * at_color, ks.rgb, tf.rgb, ks.w, ke.w, kd.w, tf.w);
+}
+#else
 uniform vec3 u_kd, u_ks, u_ke, u_tf;
 uniform float u_ns, u_ni, u_d, u_roughness, u_metallic;
 uniform sampler2D u_map_kd, u_map_ks, u_map_ke, u_map_ns, u_map_d;
@@ -11,13 +35,6 @@ uniform vec4 u_map_place[9];
 
 // The weights that make one number of a texel.
 uniform vec4 u_map_channel[9];
-
-// What scatters light at a point.
-struct matter {
-  vec3 kd, ks;  // kd: the base colour of metallic-roughness
-  vec3 tf;
-  float ns, ni, roughness, metallic;
-};
 
 // Pictures have their first row on top.
 vec2 map_place(int map, vec2 uv) {
@@ -70,3 +87,4 @@ matter matter_at() {
 #endif
   return m;
 }
+#endif

@@ -1,10 +1,11 @@
 // surface.frag — the light that a surface sends to the eye.
 
-uniform vec3 u_eye;
-
 out vec4 out_color;
 
 void main() {
+#ifdef ONCE
+  at_find();
+#endif
   vec3 wo = normalize(u_eye - at_position);
   float side = at_front ? 1.0 : -1.0;
   vec3 ng = side * at_facet, n = normal_face(side * normal_at(), wo);
@@ -23,5 +24,9 @@ void main() {
   sum = mix(sum, glass_seen(m, n, wo, m.kd), through);
 #endif
   if (at_front) sum += matter_emission();
+#ifdef ONCE
+  out_color = seen_share() * vec4(sum, 1.0);
+#else
   out_color = vec4(sum, matter_opacity());
+#endif
 }

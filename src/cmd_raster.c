@@ -44,6 +44,7 @@ raster_settings raster_job_settings(const shot *s) {
       .lights = v[OPT_LIGHTS].words == 0,
       .shadows = v[OPT_SHADOWS].words == 0,
       .sky = true,
+      .each = v[OPT_SHADE].words == 1,
       .shading = shadings[v[OPT_SHADING].words],
       .model = v[OPT_PBR_MODEL].words == 0 ? RASTER_GGX : RASTER_REPORT,
   };

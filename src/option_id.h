@@ -29,6 +29,7 @@ typedef enum option_id {
   OPT_LIGHTS,
   OPT_SHADOWS,
   OPT_MSAA,
+  OPT_SHADE,
   OPT_NORMALS,
   OPT_CREASE,
   OPT_NO_NAME_RULES,

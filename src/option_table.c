@@ -171,6 +171,9 @@ const option option_table[OPTION_COUNT] = {
     [OPT_MSAA] = {"msaa", 0, DRAWS, OPTION_WHOLE, "N", "4", 1, 64,
                   .help = "samples a pixel of the raster engine, as many as "
                           "the driver can"},
+    [OPT_SHADE] = {"shade", 0, DRAWS, OPTION_WORD, "pixels|triangles", "pixels",
+                   .help = "pixels: once each, where nothing has textures; "
+                           "triangles: each where it is drawn"},
     [OPT_NORMALS] =
         {"normals", 0, DRAWS | CMD_BENCH_LOAD, OPTION_WORD,
          "auto|file|smooth|flat", "auto",

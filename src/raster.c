@@ -3,6 +3,7 @@
 #include "raster.h"
 
 #include "clock.h"
+#include "raster_once.h"
 #include "raster_pass.h"
 
 struct raster {
@@ -62,13 +63,36 @@ static bool ready_shadows(raster *r, error *err) {
   return true;
 }
 
+// Samples a pixel, as the driver can.
+static int samples_of(const raster_stock *s) {
+  GLint most = 1;
+  gl_functions(s->g)->GetIntegerv(GL_MAX_SAMPLES, &most);
+  int samples = s->set.msaa < most ? s->set.msaa : most;
+  return samples < 1 ? 1 : samples;
+}
+
+// Whether a frame of that kind is drawn by raster_once.h.
+static bool draws_once(const raster_stock *s, raster_shading shading) {
+  return shading == RASTER_RADIANCE && raster_once_can(s);
+}
+
+// The framebuffers for such a frame.
+static bool ready_target(raster_stock *s, raster_shading shading, error *err) {
+  if (draws_once(s, shading)) return raster_once_ready(s, err);
+  raster_window w = raster_window_of(&s->set);
+  return s->many.width > 0 || gl_target_new(&s->many, s->g, w.x1 - w.x0,
+                                            w.y1 - w.y0, s->set.msaa, err);
+}
+
 // The programs that the frame needs, before it is timed.
 static bool ready_programs(raster_stock *s, error *err) {
+  bool once = draws_once(s, s->set.shading);
   for (size_t i = 0; i < s->mesh.part_count; i++) {
     GLuint program;
     if (s->mesh.parts[i].count == 0) continue;
     raster_variant v =
         raster_variant_of(&s->set, &s->materials[i], s->set.shading);
+    v.once = once;
     if (!raster_program_get(&program, &s->programs, v, err)) return false;
   }
   return true;
@@ -86,10 +110,11 @@ static bool upload(raster *r, arena *mem, error *err) {
                                   .set = &s->set,
                                   .lights = s->scene->light_count,
                                   .env = s->scene->env.kind,
+                                  .colors = s->scene->mesh.colors != NULL,
+                                  .samples = samples_of(s),
                                   .clip_control = s->space.reversed};
-  raster_window w = raster_window_of(&s->set);
-  return gl_target_new(&s->target, s->g, w.x1 - w.x0, w.y1 - w.y0, s->set.msaa,
-                       err);
+  s->seen.samples = s->programs.samples;
+  return ready_target(s, s->set.shading, err);
 }
 
 bool raster_new(raster **out, gl *g, const scene *s, const raster_settings *set,
@@ -119,7 +144,9 @@ void raster_free(raster *r) {
   if (s->maps != NULL) raster_maps_free(s->g, s->maps, s->scene);
   if (s->programs.g != NULL) raster_programs_free(&s->programs);
   raster_shadow_free(s->g, &s->shadow);
-  gl_target_free(s->g, &s->target);
+  gl_target_free(s->g, &s->many);
+  gl_target_free(s->g, &s->once);
+  raster_seen_free(s->g, &s->seen);
   f->DeleteTextures(1, &s->env_map);
   f->DeleteVertexArrays(1, &s->no_vertices);
 }
@@ -142,8 +169,10 @@ static bool draw_frame(raster *r, const camera_view *view, error *err) {
   raster_stock *s = &r->stock;
   double compiled = s->programs.seconds;
   s->view = raster_view_of(view, raster_window_of(&s->set), s->scene, s->space);
-  if (!draw_shadows(r, err) ||
-      !raster_pass_frame(s, s->set.shading, false, err))
+  raster_shading shading = s->set.shading;
+  if (!ready_target(s, shading, err) || !draw_shadows(r, err)) return false;
+  if (draws_once(s, shading) ? !raster_once_frame(s, err)
+                             : !raster_pass_frame(s, shading, false, err))
     return false;
   r->times.compile += s->programs.seconds - compiled;
   return true;
@@ -170,14 +199,14 @@ void raster_wait(const raster *r) {
 double raster_resolve_seconds(const raster *r) {
   raster_wait(r);
   double start = clock_seconds();
-  gl_target_resolve(r->stock.g, &r->stock.target);
+  gl_target_resolve(r->stock.g, r->stock.shown);
   raster_wait(r);
   return clock_seconds() - start;
 }
 
 image raster_read(raster *r, arena *mem) {
   double start = clock_seconds();
-  image out = gl_target_image(r->stock.g, &r->stock.target, NULL, mem);
+  image out = gl_target_image(r->stock.g, r->stock.shown, NULL, mem);
   r->times.read = clock_seconds() - start;
   return out;
 }
@@ -187,11 +216,12 @@ image raster_read(raster *r, arena *mem) {
 bool raster_read_aov(image *out, raster *r, raster_shading which, arena *mem,
                      error *err) {
   raster_stock *s = &r->stock;
-  if (!raster_pass_frame(s, which, true, err)) return false;
+  if (!ready_target(s, which, err) || !raster_pass_frame(s, which, true, err))
+    return false;
   arena scratch = {0};
-  size_t n = (size_t)s->target.width * (size_t)s->target.height;
+  size_t n = (size_t)s->many.width * (size_t)s->many.height;
   float *alpha = ARENA_NEW(&scratch, float, n);
-  image it = gl_target_image(s->g, &s->target, alpha, mem);
+  image it = gl_target_image(s->g, &s->many, alpha, mem);
   for (size_t i = 0; i < n && which == RASTER_DEPTH; i++)
     if (alpha[i] > 0) it.pixels[i] = vec3_scale(it.pixels[i], 1 / alpha[i]);
   arena_free(&scratch);
@@ -221,8 +251,10 @@ void raster_hide(raster *r, size_t which, bool hidden) {
 }
 
 raster_frame raster_last_frame(const raster *r) {
-  const gl_target *t = &r->stock.target;
-  return (raster_frame){t->read, t->resolved, t->width, t->height, t->samples};
+  const raster_stock *s = &r->stock;
+  const gl_target *t = s->shown != NULL ? s->shown : &s->many;
+  return (raster_frame){t->read, t->resolved, t->width, t->height,
+                        s->programs.samples};
 }
 
 raster_times raster_last_times(const raster *r) {

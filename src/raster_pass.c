@@ -27,125 +27,6 @@ vec3 raster_irradiance(const env *e, vec3 n) {
                 (float)(sum[2] * cell)};
 }
 
-static void bind_texture(const gl_api *f, int unit, GLenum target,
-                         GLuint name) {
-  f->ActiveTexture(GL_TEXTURE0 + (GLenum)unit);
-  f->BindTexture(target, name);
-}
-
-static void set_lights(const raster_stock *r, GLuint program) {
-  const gl_api *f = gl_functions(r->g);
-  float at[RASTER_MAX_LIGHTS][4], power[RASTER_MAX_LIGHTS][3];
-  GLsizei n = (GLsizei)r->scene->light_count;
-  for (GLsizei i = 0; i < n; i++) {
-    const light *l = &r->scene->lights[i];
-    bool point = l->kind == LIGHT_POINT;
-    vec3 p =
-        point ? vec3_sub(l->at, r->space.origin) : vec3_unit(vec3_neg(l->at));
-    at[i][0] = p.x, at[i][1] = p.y, at[i][2] = p.z;
-    at[i][3] = point ? 1 : 0;
-    power[i][0] = l->power.x, power[i][1] = l->power.y;
-    power[i][2] = l->power.z;
-  }
-  if (n == 0) return;
-  f->Uniform4fv(f->GetUniformLocation(program, "u_light_at"), n, at[0]);
-  f->Uniform3fv(f->GetUniformLocation(program, "u_light_power"), n, power[0]);
-}
-
-static void set_shadows(const raster_stock *r, GLuint program) {
-  const gl_api *f = gl_functions(r->g);
-  const raster_shadow *s = &r->shadow;
-  if (s->layers == 0) return;
-  f->UniformMatrix4fv(f->GetUniformLocation(program, "u_shadow_of"),
-                      (GLsizei)s->layers, GL_FALSE, s->clip->m);
-  GLint by_light = f->GetUniformLocation(program, "u_shadow_light");
-  f->Uniform2fv(by_light, (GLsizei)s->lights, &s->by_light->first);
-  raster_set_unit(r->g, program, "u_shadow", RASTER_SHADOW_UNIT);
-  bind_texture(f, RASTER_SHADOW_UNIT, GL_TEXTURE_2D_ARRAY, s->texture);
-}
-
-static void set_env(const raster_stock *r, GLuint program) {
-  const env *e = &r->scene->env;
-  vec3 scale = vec3_all(e->scale);
-  if (e->kind == ENV_CONSTANT) scale = vec3_scale(e->constant, e->scale);
-  raster_set3(r->g, program, "u_env_scale", scale);
-  raster_set1(r->g, program, "u_env_rotate", e->rotate);
-  raster_set3(r->g, program, "u_ambient_above", r->above);
-  raster_set3(r->g, program, "u_ambient_below", r->below);
-  raster_set_unit(r->g, program, "u_env_map", RASTER_ENV_UNIT);
-  bind_texture(gl_functions(r->g), RASTER_ENV_UNIT, GL_TEXTURE_2D, r->env_map);
-}
-
-static void set_view(const raster_stock *r, GLuint program) {
-  const gl_api *f = gl_functions(r->g);
-  const raster_view *v = &r->view;
-  f->UniformMatrix4fv(f->GetUniformLocation(program, "u_clip"), 1, GL_FALSE,
-                      v->clip.m);
-  raster_set3(r->g, program, "u_eye", v->eye);
-  raster_set3(r->g, program, "u_forward", v->forward);
-  raster_set3(r->g, program, "u_sky_corner", v->corner);
-  raster_set3(r->g, program, "u_sky_right", v->right);
-  raster_set3(r->g, program, "u_sky_up", v->up);
-}
-
-static void set_maps(const raster_stock *r, GLuint program, size_t which) {
-  const gl_api *f = gl_functions(r->g);
-  const material *m = &r->materials[which];
-  float place[RASTER_MAP_COUNT][4] = {{0}}, channel[RASTER_MAP_COUNT][4];
-  for (int k = 0; k < RASTER_MAP_COUNT; k++) {
-    const texture_map *map = raster_map_of(m, k);
-    raster_channels c = raster_map_channels(map, k);
-    place[k][0] = map->options.scale.x, place[k][1] = map->options.scale.y;
-    place[k][2] = map->options.offset.x, place[k][3] = map->options.offset.y;
-    channel[k][0] = c.r, channel[k][1] = c.g;
-    channel[k][2] = c.b, channel[k][3] = c.a;
-    if (map->image == NULL) continue;
-    char name[16] = "u_map_";
-    for (size_t i = 0; raster_map_name(k)[i] != '\0'; i++)
-      name[6 + i] = raster_map_name(k)[i];
-    raster_set_unit(r->g, program, name, k);
-    bind_texture(f, k, GL_TEXTURE_2D,
-                 r->maps[which * RASTER_MAP_COUNT + (size_t)k]);
-  }
-  f->Uniform4fv(f->GetUniformLocation(program, "u_map_place"), RASTER_MAP_COUNT,
-                place[0]);
-  f->Uniform4fv(f->GetUniformLocation(program, "u_map_channel"),
-                RASTER_MAP_COUNT, channel[0]);
-  raster_set1(r->g, program, "u_bump", m->map_bump.options.bump);
-}
-
-// Where the environment lies that the material sees.
-static void set_gloss(const raster_stock *r, GLuint program, size_t which) {
-  const gl_api *f = gl_functions(r->g);
-  const raster_piece *from = &r->set.ambient;
-  const material *m = &r->materials[which];
-  int place[2] = {0, 0};
-  if (from->level == NULL) return;
-  float roughness = raster_roughness(raster_kind(&r->set, m), m);
-  from->level(from->context, roughness, place);
-  f->Uniform2i(f->GetUniformLocation(program, "u_gloss"), place[0], place[1]);
-}
-
-static void set_material(const raster_stock *r, GLuint program, size_t which) {
-  const material *m = &r->materials[which];
-  raster_set3(r->g, program, "u_kd", m->kd);
-  raster_set3(r->g, program, "u_ks", m->ks);
-  raster_set3(r->g, program, "u_ke", m->ke);
-  raster_set3(r->g, program, "u_tf", m->tf);
-  raster_set1(r->g, program, "u_ns", m->ns);
-  raster_set1(r->g, program, "u_ni", m->ni);
-  raster_set1(r->g, program, "u_d", m->passes ? m->d : 1);
-  raster_set1(r->g, program, "u_roughness", m->roughness);
-  raster_set1(r->g, program, "u_metallic", m->metallic);
-  set_gloss(r, program, which);
-  set_maps(r, program, which);
-}
-
-static void bind_piece(const raster_stock *r, GLuint program,
-                       const raster_piece *piece, int unit) {
-  if (piece->bind != NULL) piece->bind(piece->context, r->g, program, unit);
-}
-
 // The scale of what first.frag writes, and what is added.
 static vec2 first_scale(const raster_stock *r, raster_shading shading,
                         bool as_mean) {
@@ -162,18 +43,13 @@ static bool use_material(raster_stock *r, size_t which, raster_shading shading,
   raster_variant v = raster_variant_of(&r->set, m, shading);
   if (!raster_program_get(&program, &r->programs, v, err)) return false;
   gl_functions(r->g)->UseProgram(program);
-  set_view(r, program);
-  set_material(r, program, which);
+  raster_set_view(r, program);
+  raster_set_material(r, program, which);
   if (shading != RASTER_RADIANCE) {
     raster_set2(r->g, program, "u_first", first_scale(r, shading, as_mean));
     return true;
   }
-  set_env(r, program);
-  if (r->set.lights) set_lights(r, program);
-  if (r->set.lights) set_shadows(r, program);
-  bind_piece(r, program, &r->set.ambient, RASTER_AMBIENT_UNIT);
-  if (v.kind == MATERIAL_METAL_ROUGH)
-    bind_piece(r, program, &r->set.metal_rough, RASTER_METAL_ROUGH_UNIT);
+  raster_set_light(r, program, v.kind);
   return true;
 }
 
@@ -228,8 +104,8 @@ static bool draw_sky(raster_stock *r, error *err) {
   raster_variant v = {.stage = RASTER_STAGE_SKY};
   if (!raster_program_get(&program, &r->programs, v, err)) return false;
   f->UseProgram(program);
-  set_view(r, program);
-  set_env(r, program);
+  raster_set_view(r, program);
+  raster_set_env(r, program);
   f->BindVertexArray(r->no_vertices);
   f->DrawArrays(GL_TRIANGLES, 0, 3);
   return true;
@@ -253,13 +129,13 @@ static bool draw_casters(raster_stock *r, const raster_matrix *clip,
     f->UseProgram(program);
     f->UniformMatrix4fv(f->GetUniformLocation(program, "u_clip"), 1, GL_FALSE,
                         clip->m);
-    if (sheet) set_material(r, program, i);
+    if (sheet) raster_set_material(r, program, i);
     f->DrawArrays(GL_TRIANGLES, part->first, part->count);
   }
   return true;
 }
 
-static void begin_depth(const raster_stock *r) {
+void raster_pass_begin(const raster_stock *r) {
   const gl_api *f = gl_functions(r->g);
   if (r->space.reversed) f->ClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
   f->Enable(GL_DEPTH_TEST);
@@ -269,7 +145,7 @@ static void begin_depth(const raster_stock *r) {
 
 bool raster_pass_shadows(raster_stock *r, error *err) {
   const gl_api *f = gl_functions(r->g);
-  begin_depth(r);
+  raster_pass_begin(r);
   f->BindVertexArray(r->mesh.vertices);
   for (size_t layer = 0; layer < r->shadow.layers; layer++) {
     raster_shadow_begin(r->g, &r->shadow, layer, r->space.reversed);
@@ -282,9 +158,9 @@ bool raster_pass_frame(raster_stock *r, raster_shading shading, bool as_mean,
                        error *err) {
   const gl_api *f = gl_functions(r->g);
   float empty = shading == RASTER_DEPTH && !as_mean ? 1 : 0;
-  begin_depth(r);
-  f->BindFramebuffer(GL_FRAMEBUFFER, r->target.draw);
-  f->Viewport(0, 0, r->target.width, r->target.height);
+  raster_pass_begin(r);
+  f->BindFramebuffer(GL_FRAMEBUFFER, r->many.draw);
+  f->Viewport(0, 0, r->many.width, r->many.height);
   f->ClearColor(empty, empty, empty, 0);
   f->ClearDepth(r->space.reversed ? 0 : 1);
   f->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -293,6 +169,7 @@ bool raster_pass_frame(raster_stock *r, raster_shading shading, bool as_mean,
     if (r->set.sky && r->scene->env.kind != ENV_NONE) ok = draw_sky(r, err);
     ok = ok && draw_sheets(r, err);
   }
-  gl_target_resolve(r->g, &r->target);
+  gl_target_resolve(r->g, &r->many);
+  r->shown = &r->many;
   return ok;
 }

@@ -24,6 +24,15 @@ float raster_roughness(material_kind kind, const material *m) {
   return 0;
 }
 
+raster_gloss_place raster_gloss_place_of(const raster_settings *set,
+                                         const material *m) {
+  const raster_piece *from = &set->ambient;
+  int place[2] = {0, 0};
+  float roughness = raster_roughness(raster_kind(set, m), m);
+  if (from->level != NULL) from->level(from->context, roughness, place);
+  return (raster_gloss_place){place[0], place[1]};
+}
+
 // What the program may take for granted of the gloss.
 static raster_gloss gloss_of(const raster_settings *set, material_kind kind,
                              const material *m) {
@@ -92,6 +101,10 @@ static char *defines_of(const raster_programs *p, raster_variant v,
       GLOSS_DEFINES[v.gloss], v.clear ? "#define CLEAR\n" : "",
       set->model == RASTER_REPORT ? "#define MODEL_REPORT\n" : "",
       or_nothing(set->ambient.defines), or_nothing(set->metal_rough.defines));
+  text = arena_format(
+      mem, "%s#define SAMPLES %d\n#define CLIP_Z(d) %s\n%s%s", text, p->samples,
+      p->clip_control ? "(d)" : "(2.0 * (d) - 1.0)",
+      p->colors ? "#define COLORS\n" : "", v.once ? "#define ONCE\n" : "");
   if (p->shadow_layers > 0 && set->lights)
     text = arena_format(mem, "%s#define SHADOWS\n#define SHADOW_LAYERS %zu\n",
                         text, p->shadow_layers);
@@ -131,9 +144,10 @@ static void add_piece(const char **parts, const raster_piece *piece,
 static void surface_parts(glsl_spec *spec, const raster_programs *p,
                           raster_variant v) {
   const char **parts = spec->fragment;
-  spec->vertex[0] = "surface.vert";
+  spec->vertex[0] = v.once ? "cover.vert" : "surface.vert";
   add_part(parts, "num.glsl");
-  add_part(parts, "at.glsl");
+  if (v.once) add_part(parts, "seen.glsl");
+  add_part(parts, v.once ? "at_once.glsl" : "at.glsl");
   add_part(parts, "env.glsl");
   add_piece(parts, &p->set->ambient, "ambient.glsl");
   add_part(parts, "matter.glsl");
@@ -157,10 +171,11 @@ static glsl_spec parts_of(const raster_programs *p, raster_variant v) {
   switch (v.stage) {
   case RASTER_STAGE_SURFACE: surface_parts(&spec, p, v); break;
   case RASTER_STAGE_SKY:
-    spec.vertex[0] = "sky.vert";
+    spec.vertex[0] = v.once ? "cover.vert" : "sky.vert";
     add_part(spec.fragment, "num.glsl");
+    if (v.once) add_part(spec.fragment, "seen.glsl");
     add_part(spec.fragment, "env.glsl");
-    add_part(spec.fragment, "sky.frag");
+    add_part(spec.fragment, v.once ? "sky_once.frag" : "sky.frag");
     break;
   case RASTER_STAGE_SHADOW:
     spec.vertex[0] = "shadow.vert";
@@ -173,19 +188,29 @@ static glsl_spec parts_of(const raster_programs *p, raster_variant v) {
     add_part(spec.fragment, "matter.glsl");
     add_part(spec.fragment, "shadow_sheet.frag");
     break;
+  case RASTER_STAGE_SEEN:
+    spec.vertex[0] = "shadow.vert";
+    spec.fragment[0] = "seen.frag";
+    break;
+  case RASTER_STAGE_KIND:
+    spec.vertex[0] = "cover.vert";
+    add_part(spec.fragment, "seen.glsl");
+    add_part(spec.fragment, "kind.frag");
+    break;
   }
   return spec;
 }
 
-static bool same_variant(raster_variant a, raster_variant b) {
+bool raster_variant_same(raster_variant a, raster_variant b) {
   return a.stage == b.stage && a.kind == b.kind && a.shading == b.shading &&
-         a.maps == b.maps && a.gloss == b.gloss && a.clear == b.clear;
+         a.maps == b.maps && a.gloss == b.gloss && a.clear == b.clear &&
+         a.once == b.once;
 }
 
 bool raster_program_get(GLuint *out, raster_programs *p, raster_variant v,
                         error *err) {
   for (size_t i = 0; i < p->count; i++)
-    if (same_variant(p->entries[i].variant, v)) {
+    if (raster_variant_same(p->entries[i].variant, v)) {
       *out = p->entries[i].program;
       return true;
     }

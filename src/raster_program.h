@@ -12,8 +12,10 @@
 typedef enum raster_stage {
   RASTER_STAGE_SURFACE,
   RASTER_STAGE_SKY,
-  RASTER_STAGE_SHADOW,       // solid: depth alone
-  RASTER_STAGE_SHADOW_SHEET  // where its opacity is at least a half
+  RASTER_STAGE_SHADOW,        // solid: depth alone
+  RASTER_STAGE_SHADOW_SHEET,  // where its opacity is at least a half
+  RASTER_STAGE_SEEN,          // the number of each triangle
+  RASTER_STAGE_KIND           // which program a pixel wants, as depth
 } raster_stage;
 
 // What is known of a surface's gloss when its program is made: nothing, that
@@ -32,6 +34,7 @@ typedef struct raster_variant {
   unsigned maps;  // bit k: the material has texture k of raster_maps.h
   raster_gloss gloss;
   bool clear;  // metallic-roughness that lets light through
+  bool once;   // of pixels: the triangle is known by its number
 } raster_variant;
 
 typedef struct raster_entry {
@@ -49,6 +52,8 @@ typedef struct raster_programs {
   const raster_settings *set;
   size_t lights, shadow_layers;  // 0 layers: no shadows
   env_kind env;
+  int samples;        // a pixel, of what is seen
+  bool colors;        // vertices have colours
   bool clip_control;  // depth is reversed, see raster_pass.h
   raster_entry entries[RASTER_MAX_PROGRAMS];
   size_t count;
@@ -68,9 +73,19 @@ material_kind raster_kind(const raster_settings *set, const material *m);
 // Blinn-Phong highlight has one whose lobe is as wide, alpha^2 = 2 / (n + 2).
 float raster_roughness(material_kind kind, const material *m);
 
+// Where the environment lies that a material sees: first texel and width of a
+// level, 0 where there is none.
+typedef struct raster_gloss_place {
+  int first, width;
+} raster_gloss_place;
+raster_gloss_place raster_gloss_place_of(const raster_settings *set,
+                                         const material *m);
+
 // The variant that draws a material's radiance or whatever else is asked for.
 raster_variant raster_variant_of(const raster_settings *set, const material *m,
                                  raster_shading shading);
+
+bool raster_variant_same(raster_variant a, raster_variant b);
 
 // Uniforms of the program in use, by name; unknown names are passed over.
 void raster_set1(const gl *g, GLuint program, const char *name, float x);

@@ -44,7 +44,8 @@ typedef struct raster_settings {
   int x0, y0, x1, y1;  // crop, half-open; all of the film when x1 is 0
   int msaa;            // samples a pixel: 1 is one in its middle; 0 counts as 1
   bool lights, shadows;
-  bool sky;  // show the environment behind everything
+  bool sky;   // show the environment behind everything
+  bool each;  // shade every triangle where it is drawn, not every pixel once
   raster_shading shading;
   raster_model model;
   bool force_blinn_phong, force_pbr;  // --shading: every material by one model

@@ -72,7 +72,7 @@ for flag in "--spp 3" "--time 1" "--error 0.1" "--max-depth 2" "--seed 1" \
   "$facet" render a.obj -r 8x8 $flag 2>"$T/err"
   grep -q -- "warning: ${flag% *} has no effect with --engine raster" "$T/err" || useless="$useless $flag"
 done
-for flag in "--msaa 4" "--gl auto" "--shadows on"; do
+for flag in "--msaa 4" "--gl auto" "--shadows on" "--shade pixels"; do
   # shellcheck disable=SC2086
   "$facet" render a.obj -r 8x8 --spp 1 --engine path $flag 2>"$T/err"
   grep -q -- "warning: ${flag% *} has no effect with --engine path" "$T/err" || useless="$useless $flag"
@@ -172,7 +172,9 @@ exits 1 "--shadows off" cmp -s lit.pfm whole.pfm
 exits 1 "--pbr-model report" cmp -s report.pfm whole.pfm
 "$facet" render -q s.obj --lights off -o off.pfm
 ok "--lights off, and no sky: night" sh -c "'$facet' info off.pfm | grep -qx 'max  0 0 0'"
+"$facet" render -q s.obj --msaa 1 --shade triangles -o each.pfm
 "$facet" render -q s.obj --msaa 1 -o one.pfm
+ok "--shade: the same picture" "$facet" compare -q --metric max --fail 0.002 each.pfm one.pfm
 exits 1 "--msaa smooths edges" cmp -s one.pfm whole.pfm
 sed 's/intensity 40 40 40/intensity 80 80 80/; s/irradiance 1 1 0.5/irradiance 2 2 1/; 1i mesh s.obj' s.scene >t.scene
 "$facet" render -q t.scene -o e0.png
