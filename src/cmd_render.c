@@ -76,7 +76,7 @@ static void warn_of_engine(render_job *j) {
                                         OPT_MAX_DEPTH, OPT_SEED, OPT_INTEGRATOR,
                                         OPT_SAMPLER,   OPT_BVH,  OPTION_COUNT};
   static const option_id raster_only[] = {OPT_SHADOWS, OPT_IBL, OPT_MSAA,
-                                          OPT_SHADE, OPT_GL, OPTION_COUNT};
+                                          OPT_SHADE,   OPT_GL,  OPTION_COUNT};
   bool path = j->engine == ENGINE_PATH;
   const option_id *id = path ? raster_only : path_only;
   for (; *id != OPTION_COUNT; id++)
