@@ -35,7 +35,7 @@ CHAPTER_2 := $(CHAPTER_1) cpu_quota pool number text path_find polygon \
              pages obj_chunk obj_line obj_parse obj_pack obj_merge obj_events obj normals
 CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material \
              statement scene_file mesh_join material_list scene scene_text
-CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah bvh_part bvh_build rays rays_make
+CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah bvh_part bvh_read bvh_build rays rays_make
 CHAPTER_5 := $(CHAPTER_4) gl_api gl gl_make glsl raster_settings raster_mesh \
              raster_maps raster_program raster_seen raster_shadow raster_view raster_stock \
              raster_pass raster_once raster
@@ -47,8 +47,8 @@ CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_world vertex path_naive film firs
 CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
               light_bound light_tree light_tree_build light_emission light path
 CHAPTER_11 := $(CHAPTER_10) lean raster_lean
-CHAPTER_12 := $(CHAPTER_11) simd_base simd_avx2 simd wide_cost wide_tree \
-             wide_levels wide_box wide_edges wide_distance wide_leaf wide_single wide_push \
+CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_split \
+             simd_base simd_avx2 simd wide_cost wide_tree wide_levels wide_box wide_edges wide_distance wide_leaf wide_single wide_push \
              wide_flight wide_stream wide_kernel wide_base wide_avx2 wide_avx512 wide \
              vertex_many_levels vertex_many_kernel vertex_many_base vertex_many_avx2 \
              vertex_many_avx512 vertex_many

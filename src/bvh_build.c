@@ -7,6 +7,7 @@
 // counting asks for an order: so the tree is the same for any threads.
 
 #include "bvh_part.h"
+#include "bvh_read.h"
 #include "clock.h"
 
 // At most SMALL triangles, or 1 / TASKS of all, are a task; CHUNK of them are
@@ -30,13 +31,6 @@ typedef struct level_chunk {
   sah_bins bins;
 } level_chunk;
 
-// A piece of the mesh: how many of its triangles are kept, where their refs
-// begin, and their bounds.
-typedef struct mesh_piece {
-  uint32_t kept, first_ref;
-  sah_box box, centres;
-} mesh_piece;
-
 // What the threads share during one build.
 typedef struct builder {
   bvh *out;
@@ -44,69 +38,16 @@ typedef struct builder {
   pool *threads;
   uint32_t small;         // so many triangles or fewer are a task
   sah_ref *refs, *spare;  // the level's refs, and where the next level's go
-  mesh_piece *pieces;
   level_node *level, *next_level;
   level_chunk *chunks;
   bvh_task *tasks;
   bvh_node *top, *room;  // nodes above the tasks, nodes of the tasks
   uint32_t *offsets;     // where a task's nodes begin in the finished tree
-  uint32_t piece_count, level_count, chunk_count, task_count, top_count;
+  uint32_t level_count, chunk_count, task_count, top_count;
 } builder;
 
 static uint32_t smaller(uint32_t a, uint32_t b) {
   return a < b ? a : b;
-}
-
-// Count the kept triangles of a piece; the next pass fills their refs.
-static void count_piece(void *context, size_t item, int worker) {
-  (void)worker;
-  builder *b = context;
-  mesh_piece *p = &b->pieces[item];
-  uint32_t begin = (uint32_t)item * CHUNK;
-  uint32_t end = begin + smaller(CHUNK, b->out->triangle_count - begin);
-  sah_ref unused;
-  for (uint32_t t = begin; t < end; t++)
-    p->kept += bvh_ref_of(&unused, b->out, t);
-}
-
-static void fill_piece(void *context, size_t item, int worker) {
-  (void)worker;
-  builder *b = context;
-  mesh_piece *p = &b->pieces[item];
-  uint32_t begin = (uint32_t)item * CHUNK;
-  uint32_t end = begin + smaller(CHUNK, b->out->triangle_count - begin);
-  sah_ref *to = b->refs + p->first_ref;
-  p->box = p->centres = sah_box_empty();
-  for (uint32_t t = begin; t < end; t++) {
-    sah_ref r;
-    if (!bvh_ref_of(&r, b->out, t)) continue;
-    sah_box_join(&p->box, &r.box);
-    sah_box_join_centre(&p->centres, &r.box);
-    *to++ = r;
-  }
-}
-
-// All refs, in mesh order, and the root over them.
-static bvh_part read_mesh(builder *b, arena *scratch) {
-  uint32_t n = b->out->triangle_count, kept = 0;
-  b->piece_count = n / CHUNK + (n % CHUNK != 0);
-  b->pieces = ARENA_NEW(scratch, mesh_piece, b->piece_count);
-  pool_run(b->threads, b->piece_count, count_piece, b);
-  for (uint32_t i = 0; i < b->piece_count; i++) {
-    b->pieces[i].first_ref = kept;
-    kept += b->pieces[i].kept;
-  }
-  b->out->kept = b->out->refs = kept;
-  b->out->dropped = n - kept;
-  b->refs = ARENA_NEW(scratch, sah_ref, kept);
-  pool_run(b->threads, b->piece_count, fill_piece, b);
-  bvh_part root = {.end = kept};
-  root.box = root.centres = sah_box_empty();
-  for (uint32_t i = 0; i < b->piece_count; i++) {
-    sah_box_join(&root.box, &b->pieces[i].box);
-    sah_box_join(&root.centres, &b->pieces[i].centres);
-  }
-  return root;
 }
 
 static void bin_chunk(void *context, size_t item, int worker) {
@@ -324,7 +265,7 @@ void bvh_build(bvh *out, const vec3 *positions, const uint32_t *index,
       .positions = positions, .index = index, .triangle_count = triangle_count};
   arena scratch = {0};
   builder b = {.out = out, .method = method, .threads = threads};
-  bvh_part root = read_mesh(&b, &scratch);
+  bvh_part root = bvh_read(&b.refs, out, 0, &scratch, threads);
   if (out->kept > 0) {
     build_top(&b, &root, &scratch);
     build_tasks(&b, mem, &scratch);

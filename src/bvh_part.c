@@ -136,32 +136,6 @@ void bvh_task_run(bvh_task *t) {
   }
 }
 
-// Whether a triangle can be hit: its corners are finite and span an area.
-static bool triangle_kept(const vec3 p[3]) {
-  if (!vec3_finite(p[0]) || !vec3_finite(p[1]) || !vec3_finite(p[2]))
-    return false;
-  double ax = (double)p[1].x - (double)p[0].x,
-         ay = (double)p[1].y - (double)p[0].y,
-         az = (double)p[1].z - (double)p[0].z;
-  double bx = (double)p[2].x - (double)p[0].x,
-         by = (double)p[2].y - (double)p[0].y,
-         bz = (double)p[2].z - (double)p[0].z;
-  return ay * bz != az * by || az * bx != ax * bz || ax * by != ay * bx;
-}
-
-bool bvh_ref_of(sah_ref *r, const bvh *b, uint32_t t) {
-  const uint32_t *v = b->index + 3 * (size_t)t;
-  vec3 p[3] = {b->positions[v[0]], b->positions[v[1]], b->positions[v[2]]};
-  if (!triangle_kept(p)) return false;
-  r->box = sah_box_empty();
-  for (int i = 0; i < 3; i++) {
-    sah_box corner = {{p[i].x, p[i].y, p[i].z}, {p[i].x, p[i].y, p[i].z}};
-    sah_box_join(&r->box, &corner);
-  }
-  r->as.triangle = t;
-  return true;
-}
-
 // Each node costs what it does times the chance that a line through the root's
 // box meets its box.
 double bvh_cost(const bvh *b) {

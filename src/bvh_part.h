@@ -51,9 +51,6 @@ typedef struct bvh_task {
 
 void bvh_task_run(bvh_task *t);
 
-// Read triangle t of the mesh into r; false when it is dropped.
-bool bvh_ref_of(sah_ref *r, const bvh *b, uint32_t t);
-
 // The expected cost of a tree, as in bvh.
 double bvh_cost(const bvh *b);
 

@@ -2,18 +2,32 @@
 
 #include "cmd_tree.h"
 
+#include "bvh_split.h"
+
 // The words of --bvh, in the order of its row in the table of options.
-enum { TREE_AUTO, TREE_BINARY, TREE_WIDE, TREE_BRUTE };
+enum {
+  TREE_AUTO,
+  TREE_BINARY,
+  TREE_WIDE,
+  TREE_BRUTE,
+  TREE_FAST,
+  TREE_HIGH
+};
 
 void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
                     pool *threads) {
   long long word = o->value[OPT_BVH].words;
-  bool wide = word == TREE_AUTO || word == TREE_WIDE;
+  bool wide = word != TREE_BINARY && word != TREE_BRUTE;
   arena scratch = {0};
   *out = (cmd_tree){0};
-  bvh_build(&out->binary, m->positions, m->position_index,
-            (uint32_t)m->triangle_count, BVH_SAH, wide ? &scratch : mem,
-            threads);
+  if (word == TREE_HIGH)
+    bvh_split_build(&out->binary, m->positions, m->position_index,
+                    (uint32_t)m->triangle_count, &scratch, threads);
+  else
+    bvh_build(&out->binary, m->positions, m->position_index,
+              (uint32_t)m->triangle_count,
+              word == TREE_FAST ? BVH_SAH_8 : BVH_SAH, wide ? &scratch : mem,
+              threads);
   out->seconds = out->binary.seconds;
   if (wide) wide_tree_build(&out->wide, &out->binary, mem, threads);
   if (out->wide.nodes == NULL) {

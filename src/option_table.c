@@ -208,7 +208,7 @@ const option option_table[OPTION_COUNT] = {
     [OPT_SAMPLER] = {"sampler", 0, SHOWS, OPTION_WORD, "sobol|random", "sobol",
                      .help = "where random numbers come from"},
     [OPT_BVH] = {"bvh", 0, SHOWS | CMD_BENCH_RAYS, OPTION_WORD,
-                 "auto|binary|wide|brute", "auto",
+                 "auto|binary|wide|brute|fast|high", "auto",
                  .help = "how triangles are found; brute tests every one"},
     [OPT_EXPOSURE] = {"exposure", 0, CMD_RENDER | CMD_VIEW, OPTION_NUMBER,
                       "STOPS", NULL, -64, 64,

@@ -1,0 +1,472 @@
+// test_bvh_split.c — trees that cut triangles find what the list finds.
+
+#include "bvh_split.h"
+#include "bvh_split_clip.h"
+#include "num.h"
+#include "shapes.h"
+#include "slab.h"
+#include "wide.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+// Fewer rays under a sanitizer.
+static uint32_t many(uint32_t n) {
+  return getenv("FACET_QUICK") != NULL ? n / 50 : n;
+}
+
+// Triangles of all lengths between random points, most of them small.
+static shape shape_mix(arena *mem, uint32_t n) {
+  shape s = shape_new(mem, "mix", 3 * n, n);
+  uint64_t state = 11;
+  for (uint32_t i = 0; i < n; i++) {
+    vec3 p = shape_point(&state);
+    float size = i % 3 ? 0.002f : num_exp2(6 * shape_random(&state) - 5);
+    vec3 a = vec3_mad(p, size, shape_point(&state));
+    shape_three(&s, p, a, vec3_mad(p, size, shape_point(&state)));
+  }
+  return s;
+}
+
+// Needles from wall to wall, a hundred or a million times as long as wide.
+static shape shape_needles(arena *mem, uint32_t n, float width) {
+  shape s = shape_new(mem, "needles", 3 * n, n);
+  uint64_t state = 5;
+  for (uint32_t i = 0; i < n; i++) {
+    vec3 a = shape_point(&state), b = shape_point(&state);
+    shape_three(&s, a, b, vec3_mad(b, width, shape_point(&state)));
+  }
+  return s;
+}
+
+// Walls along the axes on a coarse grid, so that planes of cuts, faces of
+// boxes and triangles coincide.
+static shape shape_walls(arena *mem, uint32_t n) {
+  shape s = shape_new(mem, "walls", 4 * n, 2 * n);
+  uint64_t state = 7;
+  for (uint32_t i = 0; i < n; i++) {
+    uint32_t first = s.vertices;
+    float at[3], size[2];
+    for (int k = 0; k < 3; k++)
+      at[k] = floorf(9 * shape_random(&state));
+    for (int k = 0; k < 2; k++)
+      size[k] = 1 + floorf(4 * shape_random(&state));
+    for (int k = 0; k < 4; k++) {
+      float p[3] = {at[0], at[1], at[2]};
+      if (k & 1) p[i % 3] += size[0];
+      if (k & 2) p[(i + 1) % 3] += size[1];
+      shape_vertex(&s, (vec3){p[0], p[1], p[2]});
+    }
+    shape_triangle(&s, first, first + 1, first + 2);
+    shape_triangle(&s, first + 3, first + 2, first + 1);
+  }
+  return s;
+}
+
+// One large triangle over and over.
+static shape shape_same(arena *mem, uint32_t n) {
+  shape s = shape_new(mem, "same", 3, n);
+  shape_three(&s, (vec3){0, 0, 0}, (vec3){1, 0.5f, 0.25f}, (vec3){0, 1, 1});
+  while (s.triangles < n)
+    shape_triangle(&s, 0, 1, 2);
+  return s;
+}
+
+// Nested ones of sizes that double, which cuts by cost would part one by one.
+static shape shape_nested(arena *mem) {
+  enum { STEPS = 240 };
+  shape s = shape_new(mem, "nested", 3 * STEPS * 4, STEPS * 4);
+  for (int i = 0; i < STEPS * 4; i++) {
+    float f = ldexpf(1, 100 - i % STEPS), g = f * (1 + 0.1f * (float)(i & 3));
+    shape_three(&s, (vec3){g, -f, 0}, (vec3){-g, f * 0.5f, f},
+                (vec3){g, 0, f * 0.01f});
+  }
+  return s;
+}
+
+// Every fourth triangle of a mesh made such that it cannot be hit.
+static shape shape_broken(shape s) {
+  s.name = "broken";
+  for (uint32_t t = 0; t < s.triangles; t += 4) {
+    vec3 *p = s.positions + 3 * (size_t)t;
+    if (t % 12 == 0) p[1].y = NAN;
+    if (t % 12 == 4) p[2].x = INFINITY;
+    if (t % 12 == 8) p[2] = p[0];
+  }
+  return s;
+}
+
+enum { SHAPES = 14 };
+
+static void shapes_all(shape out[SHAPES], arena *mem) {
+  const vec3 one = {1, 1, 1}, zero = {0, 0, 0};
+  int n = 0;
+  out[n++] = shape_new(mem, "none", 0, 0);
+  out[n++] = shape_mix(mem, 1);
+  out[n++] = shape_mix(mem, 2);
+  out[n++] = shape_mix(mem, 600);
+  out[n++] = shape_needles(mem, 300, 1e-2f);
+  out[n++] = shape_needles(mem, 300, 1e-6f);
+  out[n++] = shape_walls(mem, 150);
+  out[n++] = shape_same(mem, 100);
+  out[n++] = shape_nested(mem);
+  out[n++] = shape_broken(shape_mix(mem, 600));
+  out[n++] = shape_moved(shape_mix(mem, 400), "huge", vec3_all(1e30f), zero);
+  out[n++] = shape_moved(shape_mix(mem, 400), "tiny", vec3_all(1e-20f), zero);
+  out[n++] =
+      shape_moved(shape_mix(mem, 400), "far", one, (vec3){3e4f, -3e4f, 3e4f});
+  out[n++] =
+      shape_moved(shape_walls(mem, 100), "plate", (vec3){1, 1e-5f, 1}, zero);
+  assert_int_equal(n, SHAPES);
+}
+
+// A mesh, its trees, and the box that rays are made in.
+typedef struct grove {
+  shape s;
+  bvh split, plain;
+  wide_tree wide;
+  tracer tracer;
+  vec3 lo, extent;
+  uint32_t wrong;
+} grove;
+
+static void grove_plant(grove *g, shape s, arena *mem) {
+  *g = (grove){.s = s, .extent = {1, 1, 1}};
+  bvh_split_build(&g->split, s.positions, s.index, s.triangles, mem, NULL);
+  bvh_build(&g->plain, s.positions, s.index, s.triangles, BVH_SAH, mem, NULL);
+  wide_tree_build(&g->wide, &g->split, mem, NULL);
+  g->tracer = wide_tracer(&g->wide);
+  if (g->split.nodes == NULL) return;
+  g->lo = g->split.nodes[0].lo;
+  g->extent = vec3_sub(g->split.nodes[0].hi, g->lo);
+}
+
+static vec3 point_near(const grove *g, uint64_t *state) {
+  vec3 u = vec3_mad(vec3_all(0.5f), 0.75f, shape_point(state));
+  float pick = shape_random(state);
+  if (pick > 0.9f) u.x = pick > 0.95f ? 0 : 0.5f;
+  if (pick > 0.8f) u.y = pick > 0.85f ? 0 : 0.25f;
+  return vec3_add(g->lo, vec3_mul(u, g->extent));
+}
+
+// A ray that lies in the plane of some triangle as nearly as rounding allows,
+// from outside of it or from inside: its t is mostly rounding.
+static ray ray_edge_on(const grove *g, uint64_t *state) {
+  uint32_t t = (uint32_t)(shape_random(state) * (float)g->s.triangles);
+  const uint32_t *v = g->s.index + 3 * (size_t)t;
+  const vec3 *p = g->s.positions;
+  float u[4];
+  for (int i = 0; i < 4; i++)
+    u[i] = 3 * shape_random(state) - 1;
+  vec3 e = vec3_sub(p[v[1]], p[v[0]]), f = vec3_sub(p[v[2]], p[v[0]]);
+  vec3 a = vec3_mad(vec3_mad(p[v[0]], u[0], e), u[1], f);
+  vec3 b = vec3_mad(vec3_mad(p[v[0]], u[2], e), u[3], f);
+  float size = 1e-6f * vec3_peak(vec3_abs(e)) * shape_random(state);
+  a = vec3_mad(a, size, shape_point(state));
+  return ray_from(a, vec3_sub(b, a));
+}
+
+static ray ray_near(const grove *g, uint64_t *state) {
+  vec3 o = point_near(g, state), d = vec3_sub(point_near(g, state), o);
+  float pick = shape_random(state);
+  if (pick < 0.2f) d.x = pick < 0.1f ? 0 : 1e-39f;
+  if (pick < 0.15f && pick > 0.05f) d.z = pick > 0.1f ? -0.0f : 1e-20f * d.z;
+  ray r = ray_from(o, d);
+  if (pick > 0.5f && g->s.triangles > 0) r = ray_edge_on(g, state);
+  if (pick > 0.8f) r.tmax = shape_random(state) * 2;
+  if (pick > 0.9f) r.tmin = shape_random(state);
+  return r;
+}
+
+// Whether all five ways to ask agree about r.
+static bool all_agree(const grove *g, const ray *r) {
+  hit list = {0}, other = {0}, tree = {0}, plain = {0}, wide = {0};
+  bool found = brute_closest(&g->plain, r, &list);
+  return brute_closest(&g->split, r, &other) == found &&
+         bvh_closest(&g->split, r, &tree) == found &&
+         bvh_closest(&g->plain, r, &plain) == found &&
+         g->tracer.closest(g->tracer.tree, r, &wide) == found &&
+         bvh_any(&g->split, r) == found && bvh_any(&g->plain, r) == found &&
+         g->tracer.any(g->tracer.tree, r) == found &&
+         memcmp(&other, &list, sizeof list) == 0 &&
+         memcmp(&tree, &list, sizeof list) == 0 &&
+         memcmp(&plain, &list, sizeof list) == 0 &&
+         memcmp(&wide, &list, sizeof list) == 0;
+}
+
+enum { BATCH = 500 };
+
+static void try_batch(void *context, size_t item, int worker) {
+  (void)worker;
+  grove *g = context;
+  uint64_t state = 977 * item + 1;
+  for (int i = 0; i < BATCH; i++) {
+    ray r = ray_near(g, &state);
+    hit h;
+    // Only told apart from 0.
+    if (!all_agree(g, &r)) g->wrong = 1;
+    if (!bvh_closest(&g->split, &r, &h)) continue;
+    // Once more with no room for a t that a box denies.
+    ray before = r, behind = r;
+    before.tmax = behind.tmin = h.t;
+    if (!all_agree(g, &before) || !all_agree(g, &behind)) g->wrong = 1;
+  }
+}
+
+// The list, the tree, the tree that cuts triangles and the wide tree made of
+// it find the same triangle, t and weights to the bit, on 30,000 rays a mesh,
+// a good part of them edge-on, and again on rays that begin or end at the hit.
+static void tree_equals_list(void **unused) {
+  (void)unused;
+  arena mem = {0};
+  pool *threads = pool_new(&mem, pool_default_threads());
+  shape all[SHAPES];
+  shapes_all(all, &mem);
+  for (int i = 0; i < SHAPES; i++) {
+    grove g;
+    grove_plant(&g, all[i], &mem);
+    pool_run(threads, many(30000) / BATCH, try_batch, &g);
+    if (g.wrong) print_message("# %s differs\n", g.s.name);
+    assert_int_equal(g.wrong, 0);
+  }
+  pool_free(threads);
+  arena_free(&mem);
+}
+
+static bool box_within(vec3 alo, vec3 ahi, vec3 blo, vec3 bhi) {
+  return alo.x >= blo.x && alo.y >= blo.y && alo.z >= blo.z && ahi.x <= bhi.x &&
+         ahi.y <= bhi.y && ahi.z <= bhi.z;
+}
+
+// Children lie in their parents, all is reached once, every kept triangle is
+// in a leaf, none is twice in one, and the numbers are as told and promised.
+static void check_tree(const bvh *b) {
+  assert_int_equal(b->kept + b->dropped, b->triangle_count);
+  assert_true(b->refs >= b->kept &&
+              b->refs - b->kept <= (uint64_t)b->kept * BVH_SPLIT_PERCENT / 100);
+  if (b->nodes == NULL) return;
+  arena mem = {0};
+  uint32_t *last = ARENA_NEW(&mem, uint32_t, b->triangle_count);
+  int *depth = ARENA_NEW(&mem, int, b->node_count), deepest = 0;
+  uint32_t refs = 0, kept = 0, inner = 0;
+  for (uint32_t i = 0; i < b->node_count; i++) {
+    const bvh_node *n = &b->nodes[i];
+    if (depth[i] > deepest) deepest = depth[i];
+    for (uint32_t k = 0; k < n->count; k++) {
+      uint32_t t = b->order[n->first + k];
+      assert_true(t < b->triangle_count && last[t] != i + 1);
+      kept += last[t] == 0;
+      last[t] = i + 1;
+    }
+    refs += n->count;
+    assert_true(n->count <= BVH_MAX_LEAF);
+    if (n->count > 0) assert_true(n->first + n->count <= b->refs);
+    if (n->count > 0) continue;
+    inner++;
+    for (uint32_t c = n->first; c < n->first + 2; c++) {
+      assert_true(c > i && c < b->node_count && depth[c] == 0);
+      assert_true(box_within(b->nodes[c].lo, b->nodes[c].hi, n->lo, n->hi));
+      depth[c] = depth[i] + 1;
+    }
+  }
+  assert_int_equal(b->node_count, 2 * inner + 1);
+  assert_int_equal(refs, b->refs);
+  assert_int_equal(kept, b->kept);
+  assert_int_equal(deepest, b->depth);
+  assert_true(b->depth <= BVH_MAX_DEPTH);
+  arena_free(&mem);
+}
+
+static void trees_are_whole(void **unused) {
+  (void)unused;
+  arena mem = {0};
+  shape all[SHAPES];
+  shapes_all(all, &mem);
+  uint32_t more = 0;
+  for (int i = 0; i < SHAPES; i++) {
+    grove g;
+    grove_plant(&g, all[i], &mem);
+    check_tree(&g.split);
+    assert_int_equal(g.split.kept, g.plain.kept);
+    if (g.split.nodes == NULL) continue;
+    // The same root: margins and hits depend on it.
+    assert_memory_equal(&g.split.nodes[0].lo, &g.plain.nodes[0].lo, 12);
+    assert_memory_equal(&g.split.nodes[0].hi, &g.plain.nodes[0].hi, 12);
+    more += g.split.refs - g.split.kept;
+  }
+  // Triangles are cut, or this tests nothing.
+  assert_true(more > 500);
+  arena_free(&mem);
+}
+
+// Whether some leaf that holds triangle t holds the box lo..hi.
+static bool leaf_holds(const bvh *b, uint32_t t, vec3 lo, vec3 hi) {
+  for (uint32_t i = 0; i < b->node_count; i++) {
+    const bvh_node *n = &b->nodes[i];
+    for (uint32_t k = 0; k < n->count; k++)
+      if (b->order[n->first + k] == t && box_within(lo, hi, n->lo, n->hi))
+        return true;
+  }
+  return false;
+}
+
+// Coordinate k of the point of a triangle with these weights, in double, held
+// between its corners as slab_hold does.
+static double coordinate(const vec3 p[3], const double w[3], int k) {
+  double v[3];
+  for (int i = 0; i < 3; i++)
+    v[i] = (double)(k == 0 ? p[i].x : k == 1 ? p[i].y : p[i].z);
+  double x = w[0] * v[0] + w[1] * v[1] + w[2] * v[2];
+  return fmin(fmax(x, fmin(v[0], fmin(v[1], v[2]))),
+              fmax(v[0], fmax(v[1], v[2])));
+}
+
+static void between(float *lo, float *hi, double x) {
+  float near = (float)x;
+  *lo = (double)near > x ? nextafterf(near, -INFINITY) : near;
+  *hi = (double)near < x ? nextafterf(near, INFINITY) : near;
+}
+
+// The law on which the equality rests: every point of a triangle, between
+// neighbouring floats along each axis, is in the box of a leaf that has the
+// triangle.
+static void leaves_cover_triangles(void **unused) {
+  (void)unused;
+  arena mem = {0};
+  shape all[SHAPES];
+  shapes_all(all, &mem);
+  uint64_t state = 3;
+  for (int i = 0; i < SHAPES; i++) {
+    grove g;
+    grove_plant(&g, all[i], &mem);
+    if (g.split.kept == 0) continue;
+    for (uint32_t k = 0; k < many(20000); k++) {
+      uint32_t at = (uint32_t)(shape_random(&state) * (float)g.split.refs);
+      uint32_t t = g.split.order[at < g.split.refs ? at : 0];
+      vec3 p[3], lo, hi;
+      for (int j = 0; j < 3; j++)
+        p[j] = g.s.positions[g.s.index[3 * (size_t)t + (size_t)j]];
+      double a = (double)shape_random(&state), c = (double)shape_random(&state);
+      if (k % 4 == 0) a = 0;
+      const double w[3] = {1 - a, a * (1 - c), a * c};
+      between(&lo.x, &hi.x, coordinate(p, w, 0));
+      between(&lo.y, &hi.y, coordinate(p, w, 1));
+      between(&lo.z, &hi.z, coordinate(p, w, 2));
+      assert_true(leaf_holds(&g.split, t, lo, hi));
+    }
+  }
+  arena_free(&mem);
+}
+
+// 1, 2 and 7 threads build the same nodes and the same order, to the byte.
+static void threads_do_not_matter(void **unused) {
+  (void)unused;
+  arena mem = {0};
+  shape s[2] = {shape_mix(&mem, 40000), shape_needles(&mem, 20000, 1e-3f)};
+  for (int k = 0; k < 2; k++) {
+    bvh b[3];
+    const int threads[3] = {1, 2, 7};
+    for (int j = 0; j < 3; j++) {
+      pool *p = pool_new(&mem, threads[j]);
+      bvh_split_build(&b[j], s[k].positions, s[k].index, s[k].triangles, &mem,
+                      p);
+      pool_free(p);
+    }
+    check_tree(&b[0]);
+    assert_true(b[0].refs > b[0].kept + 1000);
+    for (int j = 1; j < 3; j++) {
+      assert_int_equal(b[j].node_count, b[0].node_count);
+      assert_int_equal(b[j].refs, b[0].refs);
+      assert_memory_equal(b[j].nodes, b[0].nodes,
+                          b[0].node_count * sizeof(bvh_node));
+      assert_memory_equal(b[j].order, b[0].order, b[0].refs * sizeof(uint32_t));
+    }
+  }
+  arena_free(&mem);
+}
+
+// A scan has no large triangles, and its tree is the plain one; walls across
+// a room of small things cost a good part less when they are cut.
+static void cuts_only_where_it_pays(void **unused) {
+  (void)unused;
+  arena mem = {0};
+  grove g;
+  shape ball = shape_sphere(&mem, 280);
+  grove_plant(&g, ball, &mem);
+  assert_int_equal(g.split.node_count, g.plain.node_count);
+  assert_memory_equal(g.split.nodes, g.plain.nodes,
+                      g.plain.node_count * sizeof(bvh_node));
+  grove_plant(&g, shape_mix(&mem, 20000), &mem);
+  assert_true(g.split.cost < 0.7 * g.plain.cost);
+  arena_free(&mem);
+}
+
+// Points of a triangle in a slice are in the box of its part, for triangles of
+// all sizes and places; and the box is no larger than the slice and the box
+// that it was cut from.
+static void clips_are_conservative(void **unused) {
+  (void)unused;
+  uint64_t state = 17;
+  uint32_t inside = 0;
+  for (uint32_t i = 0; i < many(500000); i++) {
+    float size = num_exp2(60 * shape_random(&state) - 30);
+    float far = num_exp2(60 * shape_random(&state) - 30);
+    vec3 c = vec3_scale(shape_point(&state), far), p[3];
+    for (int k = 0; k < 3; k++)
+      p[k] = vec3_mad(c, size, shape_point(&state));
+    vec3 a = vec3_min(p[0], vec3_min(p[1], p[2]));
+    vec3 b = vec3_max(p[0], vec3_max(p[1], p[2]));
+    sah_box own = {{a.x, a.y, a.z, 0}, {b.x, b.y, b.z, 0}}, out;
+    int axis = (int)(i % 3);
+    float u = shape_random(&state), span = own.hi[axis] - own.lo[axis];
+    bvh_slice s = {axis, own.lo[axis] + u * span, INFINITY};
+    if (i & 1) s.hi = s.lo + 0.1f * span;
+    double w[3] = {(double)shape_random(&state), 0, 0};
+    w[1] = (1 - w[0]) * (double)shape_random(&state);
+    w[2] = 1 - w[0] - w[1];
+    double q[3];
+    for (int k = 0; k < 3; k++)
+      q[k] = coordinate(p, w, k);
+    if (q[axis] < (double)s.lo || q[axis] > (double)s.hi) continue;
+    assert_true(bvh_split_clip(&out, &own, p, s));
+    assert_true(out.lo[axis] >= s.lo && out.hi[axis] <= s.hi);
+    for (int k = 0; k < 3; k++) {
+      assert_true(out.lo[k] >= own.lo[k] && out.hi[k] <= own.hi[k]);
+      assert_true(q[k] >= (double)out.lo[k] && q[k] <= (double)out.hi[k]);
+    }
+    inside++;
+  }
+  assert_true(inside > many(100000));
+}
+
+// A hundred thousand large triangles in one place: no blow-up, no deep tree.
+static void coincident_triangles(void **unused) {
+  (void)unused;
+  arena mem = {0};
+  grove g;
+  grove_plant(&g, shape_same(&mem, many(100000)), &mem);
+  check_tree(&g.split);
+  uint64_t state = 3;
+  for (int i = 0; i < 30; i++) {
+    ray r = ray_near(&g, &state);
+    assert_true(all_agree(&g, &r));
+  }
+  arena_free(&mem);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(trees_are_whole),
+      cmocka_unit_test(clips_are_conservative),
+      cmocka_unit_test(leaves_cover_triangles),
+      cmocka_unit_test(tree_equals_list),
+      cmocka_unit_test(threads_do_not_matter),
+      cmocka_unit_test(cuts_only_where_it_pays),
+      cmocka_unit_test(coincident_triangles),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
