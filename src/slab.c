@@ -16,7 +16,7 @@ static float reach_of(float lo, float hi, float o) {
 // box lies from o along it, sheared what the ray covers along this axis while
 // it covers the reach of its longest.  Chapter 4 derives the factors.
 static float margin_of(float reach, float sheared, float o) {
-  return 0x6p-24f * (reach + sheared) + 0x2p-24f * fabsf(o) + FLT_MIN;
+  return 0x6p-24f * reach + 0x10p-24f * sheared + 0x2p-24f * fabsf(o) + FLT_MIN;
 }
 
 slab_ray slab_ray_of(vec3 o, vec3 d, const aabb *all) {

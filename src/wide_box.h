@@ -16,6 +16,7 @@ typedef struct wide_walk {
   uint32_t side[4];  // bytes from a lower plane of wide_node.plane[k] to the
                      // one where the ray enters
   float begin;       // tmin, or 0 when that is less or NaN: no hit has t < 0
+  float large;       // of slab_ray
   hit best;
   uint32_t axis[3];  // the axes, turned by the shear
   float o[3];        // and the origin
@@ -33,7 +34,8 @@ SIMD int longest_axis(const float a[4]) {
 // slab_ray_of for three axes at once; a is |d|, `kz` where it is largest.
 SIMD void start_slab(wide_walk *w, const wide_tree *t, f4 o, f4 d, f4 a,
                      int kz) {
-  const f4 one = {1, 1, 1, 1}, six = 0x6p-24f * one, two = 0x2p-24f * one;
+  const f4 one = {1, 1, 1, 1}, two = 0x2p-24f * one;
+  const f4 six = 0x6p-24f * one, sixteen = 0x10p-24f * one;
   f4 lo, hi, inv = one / d, m;
   memcpy(&lo, t->lo, sizeof lo);
   memcpy(&hi, t->hi, sizeof hi);
@@ -44,7 +46,8 @@ SIMD void start_slab(wide_walk *w, const wide_tree *t, f4 o, f4 d, f4 a,
   memcpy(reach, &m, sizeof reach);
   memcpy(far, &a, sizeof far);
   float k = reach[kz] / far[kz];
-  f4 e = six * (m + a * (f4){k, k, k, k}) + two * f4_abs(o) + FLT_MIN * one;
+  f4 e = six * m + sixteen * (a * (f4){k, k, k, k});
+  e = e + two * f4_abs(o) + FLT_MIN * one;
   i4 back = (i4)inv < 0;
   e = f4_pick(back, -e, e);
   f4 enter = o + e, leave = o - e;
@@ -83,6 +86,7 @@ SIMD bool walk_start(wide_walk *w, const wide_tree *t, const ray *r) {
     w->o[k] = origin[w->axis[k]];
   w->shear = (ray_shear){kz, along[w->axis[0]], along[w->axis[1]], w->inv[kz]};
   w->begin = r->tmin > 0 ? r->tmin : 0;
+  w->large = t->large;
   w->best = (hit){.t = r->tmax, .triangle = HIT_NONE};
   w->r = *r;
   return true;

@@ -26,10 +26,22 @@ SIMD f8 leaf_error(const leaf_shear *c, f8 det) {
   return f8_div(sum, f8_abs(det));
 }
 
+// Whether the t of single precision is within 12 roundings of the largest z of
+// where the ray meets the triangle.  Then holding it to that point, as
+// slab_hold does for large triangles, changes nothing: the margins of slab_ray
+// are wider.
+SIMD uint32_t leaf_firm(const leaf_shear *c, f8 det) {
+  f8 mx = f8_peak(c->x), my = f8_peak(c->y), mz = f8_peak(c->z);
+  f8 least = f8_min(f8_min(c->z[0], c->z[1]), c->z[2]);
+  f8 most = f8_max(f8_max(c->z[0], c->z[1]), c->z[2]);
+  f8 range = f8_mul(f8_all(3), f8_sub(most, least));
+  return f8_lt(f8_mul(f8_mul(mx, my), range), f8_mul(mz, f8_abs(det)));
+}
+
 // Where the lines of the ray enter and leave the boxes of the triangles
-// themselves, one axis: slab_hold of slab.c.
-SIMD void leaf_slab(f8 *near, f8 *far, const uint32_t *leaf, uint32_t n,
-                    uint32_t axis, const wide_walk *w) {
+// themselves, one axis, and the longest side so far: slab_hold of slab.c.
+SIMD void leaf_slab(f8 *near, f8 *far, f8 *side, const uint32_t *leaf,
+                    uint32_t n, uint32_t axis, const wide_walk *w) {
   f8 a = leaf_load(leaf, n, 0, axis), b = leaf_load(leaf, n, 1, axis);
   f8 c = leaf_load(leaf, n, 2, axis), inv = f8_all(w->inv[axis]);
   f8 lo = f8_min(f8_min(a, b), c), hi = f8_max(f8_max(a, b), c);
@@ -39,6 +51,7 @@ SIMD void leaf_slab(f8 *near, f8 *far, const uint32_t *leaf, uint32_t n,
   out = f8_mul(f8_sub(out, f8_all(w->leave[axis])), inv);
   *near = f8_max(in, *near);
   *far = f8_min(out, *far);
+  *side = f8_max(f8_sub(hi, lo), *side);
 }
 
 // What is left of the candidates m: t of triangle_hit and slab_hold for those
@@ -56,10 +69,11 @@ SIMD uint32_t leaf_distances(leaf_shear *c, const wide_walk *w,
   f8 small = f8_min(f8_min(f8_abs(c->e[0]), f8_abs(c->e[1])), f8_abs(c->e[2]));
   uint32_t sure = f8_lt(zero, small) & f8_lt(f8_all(FLT_MIN * 0x1p24f), size) &
                   f8_lt(size, infinite) & f8_lt(leaf_error(c, det), f8_abs(t));
-  *unsure = m & ~sure;
-  f8 near = f8_all(-INFINITY), far = infinite;
+  f8 near = f8_all(-INFINITY), far = infinite, side = zero;
   for (uint32_t k = 0; k < 3; k++)
-    leaf_slab(&near, &far, leaf, n, k, w);
+    leaf_slab(&near, &far, &side, leaf, n, k, w);
+  sure &= f8_le(side, f8_all(w->large)) | leaf_firm(c, det);
+  *unsure = m & ~sure;
   f8 tmin = f8_all(w->r.tmin), tmax = f8_all(w->r.tmax);
   uint32_t in = f8_lt(zero, t) & f8_le(tmin, t) & f8_le(t, tmax) &
                 f8_lt(t, infinite) & f8_le(near, far);

@@ -35,7 +35,8 @@ static bool leaf_one(const wide_walk *w, const uint32_t *leaf, uint32_t n,
                 .o_leave = {w->leave[0], w->leave[1], w->leave[2]},
                 .x = 2 * w->side[0],
                 .y = 4 + 2 * w->side[1],
-                .z = 8 + 2 * w->side[2]};
+                .z = 8 + 2 * w->side[2],
+                .large = w->large};
   return triangle_hit(&r, &w->shear, p[0], p[1], p[2], h) &&
          slab_hold(&s, &r, p, h);
 }

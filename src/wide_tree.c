@@ -3,6 +3,7 @@
 #include "wide_tree.h"
 
 #include "clock.h"
+#include "slab.h"
 
 #include <string.h>
 
@@ -135,6 +136,7 @@ void wide_tree_build(wide_tree *out, const bvh *b, arena *mem, pool *threads) {
   c.costs = wide_costs_of(b, &scratch, threads);
   memcpy(out->lo, &b->nodes[0].lo, sizeof(vec3));
   memcpy(out->hi, &b->nodes[0].hi, sizeof(vec3));
+  out->large = slab_large(&(aabb){b->nodes[0].lo, b->nodes[0].hi});
   out->nodes = aligned_alloc_of(mem, b->node_count / 2 + 1, sizeof(wide_node));
   out->triangles = aligned_alloc_of(mem, c.costs[0].below + WIDE_LEAF,
                                     10 * sizeof(uint32_t));

@@ -21,6 +21,7 @@ typedef struct wide_node {
 // numbers; 40 bytes a triangle and no gaps.
 typedef struct wide_tree {
   float lo[4], hi[4];   // its box, and a number that means nothing
+  float large;          // slab_large of the box
   wide_node *nodes;     // nodes[0] is the root; NULL when there is nothing
   uint32_t *triangles;  // ten words a triangle, floats but for the numbers
   uint32_t node_count, triangle_count;
