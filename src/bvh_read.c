@@ -91,8 +91,8 @@ bvh_part bvh_read(sah_ref **refs, bvh *b, uint32_t percent, arena *mem,
   }
   b->kept = b->refs = kept;
   b->dropped = n - kept;
-  *refs = job.refs = ARENA_NEW(
-      mem, sah_ref, kept + (size_t)((uint64_t)kept * percent / 100));
+  *refs = job.refs =
+      ARENA_NEW(mem, sah_ref, kept + (size_t)((uint64_t)kept * percent / 100));
   pool_run(threads, pieces, fill_piece, &job);
   bvh_part root = {.end = kept};
   root.box = root.centres = sah_box_empty();

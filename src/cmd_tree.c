@@ -5,14 +5,7 @@
 #include "bvh_split.h"
 
 // The words of --bvh, in the order of its row in the table of options.
-enum {
-  TREE_AUTO,
-  TREE_BINARY,
-  TREE_WIDE,
-  TREE_BRUTE,
-  TREE_FAST,
-  TREE_HIGH
-};
+enum { TREE_AUTO, TREE_BINARY, TREE_WIDE, TREE_BRUTE, TREE_FAST, TREE_HIGH };
 
 void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
                     pool *threads) {
