@@ -55,7 +55,7 @@ CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_spl
 CHAPTER_14 := $(CHAPTER_12) post view_state view_script view_paths view_window
 CHAPTER_15 := $(CHAPTER_14) glyph sketch plot two_means halves adaptive doubling
 LIBRARY   := $(CHAPTER_15)
-CHAPTERS  := 1 2 3 4 5 6 7 8 9 11 12 14 15 17
+CHAPTERS  := 1 2 3 4 5 6 7 8 9 10 11 12 14 15 17
 # The command line, the only floor that prints and exits.
 COMMAND   := json tonemap progress option_id option_table option cmd_shared cmd_signals \
              cmd_output cmd_tree cmd_shot cmd_raster cmd_render cmd_view_say cmd_view cmd_info_scene \

@@ -99,8 +99,10 @@ static void sobol_8(const sampler *s, uint32_t dimension, float out[8]) {
 
 // SSE 4.1 multiplies four lanes at once, x86-64 alone cannot.
 #if defined(__x86_64__)
-__attribute__((target("sse4.1"), flatten)) static void
-sobol_8_sse41(const sampler *s, uint32_t dimension, float out[8]) {
+static void sobol_8_sse41(const sampler *s, uint32_t dimension, float out[8])
+    __attribute__((target("sse4.1"), flatten));
+
+static void sobol_8_sse41(const sampler *s, uint32_t dimension, float out[8]) {
   sobol_8(s, dimension, out);
 }
 #endif

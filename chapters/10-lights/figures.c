@@ -1,0 +1,601 @@
+// figures.c — the pictures of chapter 10, and the numbers that its text quotes.
+
+#include "bvh.h"
+#include "light_emission.h"
+#include "metric.h"
+#include "num.h"
+#include "path.h"
+#include "picture.h"
+#include "render.h"
+#include "vertex.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+// Where the pictures go, and who computes them.
+typedef struct output {
+  const char *folder;
+  arena mem;
+  pool *threads;
+} output;
+
+static void give_up(const error *err) {
+  fprintf(stderr, "%s\n", err->text);
+  exit(4);
+}
+
+static void publish(output *o, const char *name, const image *im) {
+  error err;
+  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
+  if (!picture_write(im, path, PICTURE_PNG, 8, &err)) give_up(&err);
+}
+
+static vec3 *pixel(const image *im, int x, int y) {
+  return &im->pixels[(size_t)y * (size_t)im->width + (size_t)x];
+}
+
+static image blank(output *o, int width, int height) {
+  image im = image_new(&o->mem, width, height);
+  for (int i = 0; i < width * height; i++)
+    im.pixels[i] = vec3_all(1);
+  return im;
+}
+
+// Pictures of one height side by side, four white pixels between them.
+static image row_of(output *o, const image *parts, int n) {
+  int width = -4, height = parts[0].height;
+  for (int i = 0; i < n; i++)
+    width += parts[i].width + 4;
+  image all = blank(o, width, height);
+  for (int i = 0, at = 0; i < n; at += parts[i].width + 4, i++)
+    for (int y = 0; y < height; y++)
+      for (int x = 0; x < parts[i].width; x++)
+        *pixel(&all, at + x, y) = *pixel(&parts[i], x, y);
+  return all;
+}
+
+static const vec3 RED = {0.8f, 0.05f, 0.02f}, GREY = {0.35f, 0.35f, 0.35f};
+
+static void draw_line(image *im, vec2 a, vec2 b, vec3 color) {
+  float length = fmaxf(fabsf(b.x - a.x), fabsf(b.y - a.y));
+  int steps = (int)(4 * length) + 1;
+  for (int i = 0; i <= steps; i++) {
+    float t = (float)i / (float)steps;
+    int x = (int)(a.x + t * (b.x - a.x)), y = (int)(a.y + t * (b.y - a.y));
+    if (x >= 0 && x < im->width && y >= 0 && y < im->height)
+      *pixel(im, x, y) = color;
+  }
+}
+
+static void draw_dot(image *im, float x, float y, int size, vec3 color) {
+  for (int i = 0; i < size * size; i++) {
+    int px = (int)x + i % size - size / 2, py = (int)y + i / size - size / 2;
+    if (px >= 0 && px < im->width && py >= 0 && py < im->height)
+      *pixel(im, px, py) = color;
+  }
+}
+
+// 256 points of two dimensions, the first 64 in red: random ones, Sobol's, and
+// those scrambled.
+static void draw_points(output *o) {
+  enum { SIDE = 157, POINTS = 256 };
+  image parts[3];
+  for (int k = 0; k < 3; k++) {
+    parts[k] = blank(o, SIDE, SIDE);
+    for (int i = 0; i <= 16; i++) {
+      float x = (SIDE - 1) * (float)i / 16;
+      vec3 c = vec3_all(i % 2 ? 0.9f : 0.75f);
+      draw_line(&parts[k], (vec2){x, 0}, (vec2){x, SIDE}, c);
+      draw_line(&parts[k], (vec2){0, x}, (vec2){SIDE, x}, c);
+    }
+    for (uint32_t i = POINTS; i-- > 0;) {
+      sampler s = sampler_of(k == 0 ? SAMPLER_RANDOM : SAMPLER_SOBOL, 1, 2, i);
+      vec2 p = {sobol_number(sobol_digits(i, 0)),
+                sobol_number(sobol_digits(i, 1))};
+      if (k != 1) p = sampler_2(&s);
+      draw_dot(&parts[k], p.x * (SIDE - 1), p.y * (SIDE - 1), 3,
+               i < 64 ? RED : GREY);
+    }
+  }
+  image all = row_of(o, parts, 3);
+  publish(o, "points", &all);
+}
+
+// One of the integrals of the plot: a pixel with an edge through it, or the
+// same times a lamp.
+typedef struct integral {
+  const char *name;
+  sampler_kind kind;
+  bool lamp;
+  uint32_t dimension;  // of the lamp
+  vec3 color;
+} integral;
+
+// The mean squared error of 2^bits samples over many pixels, each with an edge
+// of its own from the left side to the right.
+static double error_of(const integral *of, int bits) {
+  enum { PIXELS = 1500 };
+  double squares = 0;
+  for (uint64_t p = 0; p < PIXELS; p++) {
+    rng r = rng_of(1, p, (uint64_t)bits);
+    float left = rng_next(&r), right = rng_next(&r);
+    double got = 0, want = 0.5 * (double)(left + right) * (of->lamp ? 0.5 : 1);
+    for (uint32_t i = 0; i < 1u << bits; i++) {
+      sampler s = sampler_of(of->kind, 2, p, i);
+      vec2 at = sampler_2(&s);
+      double x = at.y < left + (right - left) * at.x;
+      sampler_at(&s, of->dimension);
+      vec2 u = sampler_2(&s);
+      if (of->lamp) x *= 2 * (double)u.x * (double)u.y;
+      got += x;
+    }
+    got /= (double)(1u << bits);
+    squares += (got - want) * (got - want);
+  }
+  return squares / PIXELS;
+}
+
+// Both axes logarithmic: samples from 1 to 4096, a line for every factor of 4;
+// error down, a line for every factor of 16.
+static void draw_slopes(output *o) {
+  enum { FIELD = 56, COLUMNS = 6, ROWS = 6, STEPS = 7 };
+  static const integral ALL[] = {
+      {"random", SAMPLER_RANDOM, false, 2, {0, 0, 0}},
+      {"edge", SAMPLER_SOBOL, false, 2, {0.8f, 0.05f, 0.02f}},
+      {"edge and lamp", SAMPLER_SOBOL, true, 4, {0.02f, 0.15f, 0.7f}},
+      {"edge and lamp of a later block",
+       SAMPLER_SOBOL,
+       true,
+       12,
+       {0.02f, 0.4f, 0.08f}}};
+  image im = blank(o, FIELD * COLUMNS + 1, FIELD * ROWS * 3 / 4 + 1);
+  for (int i = 0; i <= COLUMNS; i++) {
+    float x = (float)(i * FIELD), y = (float)(i * FIELD * 3 / 4);
+    draw_line(&im, (vec2){x, 0}, (vec2){x, 999}, vec3_all(0.8f));
+    draw_line(&im, (vec2){0, y}, (vec2){999, y}, vec3_all(0.8f));
+  }
+  for (size_t k = 0; k < sizeof ALL / sizeof *ALL; k++) {
+    vec2 last = {0, 0};
+    double e[STEPS];
+    printf("%-31s", ALL[k].name);
+    for (int i = 0; i < STEPS; i++) {
+      e[i] = error_of(&ALL[k], 2 * i);
+      printf(" %.1e", e[i]);
+      float down = -log2f((float)e[i]) / 4 * FIELD * 3 / 4;
+      vec2 at = {(float)(i * FIELD), down};
+      if (i > 0) draw_line(&im, last, at, ALL[k].color);
+      draw_dot(&im, at.x, at.y, 5, ALL[k].color);
+      last = at;
+    }
+    printf("  slope %.2f\n", log2(e[STEPS - 1] / e[2]) / (2 * (STEPS - 3)));
+  }
+  publish(o, "slopes", &im);
+}
+
+// A scene with its tree and its lights.
+typedef struct stage {
+  scene scene;
+  bvh tree;
+  light_set lights;
+  path_world world;
+} stage;
+
+static void stage_ready(output *o, stage *s) {
+  const mesh *m = &s->scene.mesh;
+  bvh_build(&s->tree, m->positions, m->position_index,
+            (uint32_t)m->triangle_count, BVH_SAH, &o->mem, o->threads);
+  s->world = (path_world){
+      .scene = &s->scene, .tracer = bvh_tracer(&s->tree), .lights = true};
+  s->world.dfg = matter_table(&s->scene, PBR_GGX, &o->mem, o->threads);
+  light_set_build(&s->lights, &s->scene, true, true, &o->mem, o->threads);
+}
+
+static stage *stage_load(output *o, const char *path, const char *sky) {
+  stage *s = ARENA_NEW(&o->mem, stage, 1);
+  scene_options options = {.env = sky};
+  error err;
+  if (!scene_load(&s->scene, path, &options, &o->mem, o->threads, NULL, &err))
+    give_up(&err);
+  stage_ready(o, s);
+  return s;
+}
+
+// Room for a scene that is made here.
+static stage *stage_new(output *o, size_t triangles, size_t materials) {
+  stage *s = ARENA_NEW(&o->mem, stage, 1);
+  s->scene.mesh.positions = ARENA_NEW(&o->mem, vec3, 3 * triangles);
+  s->scene.mesh.position_index = ARENA_NEW(&o->mem, uint32_t, 3 * triangles);
+  s->scene.material_of = ARENA_NEW(&o->mem, uint32_t, triangles);
+  s->scene.materials = ARENA_NEW(&o->mem, material, materials);
+  s->scene.env = (env){.kind = ENV_NONE, .scale = 1};
+  return s;
+}
+
+static uint32_t add_material(stage *s, vec3 kd, vec3 ke) {
+  s->scene.materials[s->scene.material_count] =
+      (material){.kd = kd, .ke = ke, .d = 1};
+  return (uint32_t)s->scene.material_count++;
+}
+
+static void add_triangle(stage *s, vec3 a, vec3 b, vec3 c, uint32_t of) {
+  mesh *m = &s->scene.mesh;
+  const vec3 p[3] = {a, b, c};
+  for (size_t i = 0; i < 3; i++) {
+    m->position_index[3 * m->triangle_count + i] = (uint32_t)m->position_count;
+    m->positions[m->position_count++] = p[i];
+  }
+  s->scene.material_of[m->triangle_count++] = of;
+}
+
+// The parallelogram p, p + u, p + u + v, p + v; front along u x v.
+static void add_quad(stage *s, vec3 p, vec3 u, vec3 v, uint32_t of) {
+  vec3 a = vec3_add(p, u), b = vec3_add(p, v), c = vec3_add(a, v);
+  add_triangle(s, p, a, c, of);
+  add_triangle(s, p, c, b, of);
+}
+
+// A box that shines or stands on the floor, seen from outside.
+static void add_box(stage *s, vec3 lo, vec3 d, uint32_t of) {
+  vec3 x = {d.x, 0, 0}, y = {0, d.y, 0}, z = {0, 0, d.z};
+  add_quad(s, lo, y, x, of);
+  add_quad(s, vec3_add(lo, z), x, y, of);
+  add_quad(s, lo, z, y, of);
+  add_quad(s, vec3_add(lo, x), y, z, of);
+  add_quad(s, lo, x, z, of);
+  add_quad(s, vec3_add(lo, y), z, x, of);
+}
+
+static camera_view view_of(vec3 eye, vec3 target, float fov, int w, int h) {
+  camera c = {.eye = eye, .target = target, .up = {0, 1, 0}, .fov_deg = fov};
+  camera_view v;
+  error err;
+  if (!camera_view_of(&v, &c, w, h, &err)) give_up(&err);
+  return v;
+}
+
+// How direct light is found; ways that are worse than facet's, too.
+typedef enum strategy { BY_BOTH, BY_LIGHT, BY_SCATTERING } strategy;
+
+typedef struct method {
+  strategy by;
+  bool any_light;  // each as likely as any other
+  bool by_area;    // points of a triangle, from nearby too
+  bool one_key;    // the same numbers in every pixel
+  uint32_t spp;
+} method;
+
+// An emitter and a point on it without regard to what is lit.
+static bool careless_sample(const stage *s, const method *how, const vertex *v,
+                            vec3 u, light_sample *out) {
+  const light_tree *t = &s->lights.near;
+  uint32_t i = (uint32_t)(u.x * (float)t->count);
+  const light_emitter *e = &t->emitters[i];
+  light_point q;
+  vec3 p = v->at.p;
+  if (how->by_area) {
+    float k = sqrtf(u.y);
+    vec3 at = vec3_mad(e->shape.a, k * u.z, e->shape.ab);
+    q.at = vec3_mad(at, k * (1 - u.z), e->shape.ac);
+    vec3 d = vec3_sub(q.at, p);
+    q.wi = vec3_unit(d);
+    float cosine = -vec3_dot(q.wi, e->shape.n);
+    if (!(cosine > 0)) return false;
+    q.pdf = vec3_dot(d, d) / (cosine * e->shape.area);
+  } else if (!light_triangle_sample(&e->shape, p, u.y, u.z, &q))
+    return false;
+  *out = (light_sample){.wi = q.wi, .to = q.at, .has_end = true};
+  out->radiance = light_emission(&s->scene, e->source, 0, 0);
+  out->pdf = q.pdf / (float)t->count;
+  return true;
+}
+
+static float balance(const method *how, float mine, float other) {
+  return how->by == BY_BOTH ? mine / (mine + other) : 1;
+}
+
+static vec3 from_light(const stage *s, const method *how, const vertex *v,
+                       const bsdf *b, vec3 u) {
+  light_sample l;
+  bool found = how->any_light
+                   ? careless_sample(s, how, v, u, &l)
+                   : light_sample_at(&s->lights, v->at.p, v->n, u, &l);
+  if (!found) return vec3_all(0);
+  vec3 wi = vertex_local(v, l.wi), wo = vertex_local(v, v->wo);
+  if (!(wi.z > 0)) return vec3_all(0);
+  light_ray to = {.is_point = l.has_end, .to = l.to, .wi = l.wi};
+  ray r = light_ray_shadow(&to, &v->at, true);
+  if (s->world.tracer.any(s->world.tracer.tree, &r)) return vec3_all(0);
+  float weight = balance(how, l.pdf, bsdf_pdf(b, wo, wi));
+  vec3 lit = vec3_mul(bsdf_eval(b, wo, wi), l.radiance);
+  return vec3_scale(lit, weight * wi.z / l.pdf);
+}
+
+static vec3 from_scattering(const stage *s, const method *how, const vertex *v,
+                            const bsdf *b, const float u[3]) {
+  bsdf_sample d;
+  if (!bsdf_sample_wi(b, vertex_local(v, v->wo), u[0], u[1], u[2], &d))
+    return vec3_all(0);
+  int inside = 0;
+  ray r = vertex_leave(v, b, &d, vec3_neg(v->wo), &inside);
+  hit h;
+  if (!s->world.tracer.closest(s->world.tracer.tree, &r, &h))
+    return vec3_all(0);
+  surface at = surface_at(&s->scene, &h, r.d);
+  if (!at.front) return vec3_all(0);
+  float other = light_pdf_triangle(&s->lights, v->at.p, v->n, h.triangle, at.p);
+  return vec3_scale(vec3_mul(d.weight, matter_emission(&at)),
+                    balance(how, d.pdf, other));
+}
+
+static vec3 direct(const stage *s, const method *how, ray r, sampler *numbers) {
+  hit h;
+  if (!s->world.tracer.closest(s->world.tracer.tree, &r, &h))
+    return vec3_all(0);
+  float u[8];
+  sampler_8(numbers, 2, u);
+  vertex v = vertex_at(&s->scene, &h, r.d);
+  matter m = vertex_matter(&v, s->world.dfg, u[6]);
+  vec3 sum = v.at.front ? matter_emission(&v.at) : vec3_all(0);
+  if (how->by != BY_SCATTERING) {
+    vec3 lit = from_light(s, how, &v, &m.bsdf, (vec3){u[4], u[2], u[3]});
+    sum = vec3_add(sum, vec3_mul(m.weight, lit));
+  }
+  if (how->by == BY_LIGHT) return sum;
+  vec3 found =
+      from_scattering(s, how, &v, &m.bsdf, (float[]){u[5], u[0], u[1]});
+  return vec3_add(sum, vec3_mul(m.weight, found));
+}
+
+// Work of the pool: one row of a picture.
+typedef struct film_job {
+  const stage *stage;
+  const camera_view *view;
+  method how;
+  image out;
+} film_job;
+
+static void take_row(void *context, size_t row, int worker) {
+  (void)worker;
+  film_job *job = context;
+  const method *how = &job->how;
+  for (int x = 0; x < job->out.width; x++) {
+    uint64_t key = how->one_key ? 0 : row * (size_t)job->out.width + (size_t)x;
+    vec3 sum = {0, 0, 0};
+    for (uint32_t k = 0; k < how->spp; k++) {
+      sampler n = sampler_of(SAMPLER_SOBOL, 3, key, k);
+      vec2 at = sampler_2(&n);
+      ray r = camera_ray(job->view, (float)x + at.x, (float)row + at.y);
+      sum = vec3_add(sum, direct(job->stage, how, r, &n));
+    }
+    *pixel(&job->out, x, (int)row) = vec3_scale(sum, 1 / (float)how->spp);
+  }
+}
+
+static image take(output *o, const stage *s, const camera_view *v, int width,
+                  int height, method how) {
+  film_job job = {s, v, how, image_new(&o->mem, width, height)};
+  pool_run(o->threads, (size_t)height, take_row, &job);
+  return job.out;
+}
+
+static image expose(image im, float gain) {
+  for (int i = 0; i < im.width * im.height; i++)
+    im.pixels[i] = vec3_scale(im.pixels[i], gain);
+  return im;
+}
+
+static void print_error(const char *what, const image *im, const image *truth,
+                        output *o) {
+  printf("%-34s relMSE %.4f\n", what,
+         metric_compare(im, truth, &o->mem).relmse);
+}
+
+// Four metal plates from smooth to rough under four lamps of one power, from
+// small to large.  Source: Veach 1997, figure 9.2.
+static stage *plates(output *o) {
+  static const vec2 LOW[] = {
+      {-2.71f, 0.26f}, {-3.29f, 1.37f}, {-3.73f, 2.70f}, {-4.0f, 4.07f}};
+  static const vec2 HIGH[] = {
+      {-2.08f, -0.53f}, {-2.84f, 0.48f}, {-3.43f, 1.75f}, {-3.82f, 3.08f}};
+  static const float ROUGH[] = {0.08f, 0.17f, 0.28f, 0.42f};
+  static const float SIZE[] = {0.05f, 0.14f, 0.4f, 1.1f};
+  stage *s = stage_new(o, 64, 16);
+  uint32_t wall = add_material(s, vec3_all(0.3f), vec3_all(0));
+  add_quad(s, (vec3){-10, -4.2f, -2}, (vec3){0, 0, 12}, (vec3){20, 0, 0}, wall);
+  add_quad(s, (vec3){-10, -4.2f, -2}, (vec3){20, 0, 0}, (vec3){0, 14, 0}, wall);
+  for (int i = 0; i < 4; i++) {
+    uint32_t of = add_material(s, vec3_all(0.7f), vec3_all(0));
+    material *m = &s->scene.materials[of];
+    m->kind = MATERIAL_METAL_ROUGH;
+    m->metallic = 1;
+    m->roughness = ROUGH[i];
+    vec3 p = {-4, LOW[i].x, LOW[i].y}, u = {8, 0, 0};
+    add_quad(s, p, u, (vec3){0, HIGH[i].x - LOW[i].x, HIGH[i].y - LOW[i].y},
+             of);
+    float r = SIZE[i], glow = 1.2f / (r * r);
+    vec3 hue = {i == 0 || i == 2 ? 1 : 0.5f, i > 0 ? 0.9f : 0.5f,
+                i < 3 ? 0.6f : 1};
+    of = add_material(s, vec3_all(0), vec3_scale(hue, glow));
+    vec3 q = {-3.75f + 2.5f * (float)i - r / 2, -r / 2, -r / 2};
+    add_quad(s, q, (vec3){r, 0, 0}, (vec3){0, 0.7f * r, 0.7f * r}, of);
+  }
+  stage_ready(o, s);
+  return s;
+}
+
+static void draw_weights(output *o) {
+  enum { W = 157, H = 116, SPP = 9 };
+  stage *s = plates(o);
+  vec3 eye = {0, 2, 15}, target = {0, -2.2f, 2.5f};
+  camera_view v = view_of(eye, target, 28, W, H);
+  image truth = take(o, s, &v, W, H, (method){.spp = 144}), parts[3];
+  static const char *const NAMES[] = {"both", "lights alone",
+                                      "scattering alone"};
+  static const strategy ORDER[] = {BY_LIGHT, BY_SCATTERING, BY_BOTH};
+  for (int i = 0; i < 3; i++) {
+    parts[i] = take(o, s, &v, W, H, (method){.by = ORDER[i], .spp = SPP});
+    print_error(NAMES[ORDER[i]], &parts[i], &truth, o);
+    parts[i] = expose(parts[i], 4);
+  }
+  image all = row_of(o, parts, 3);
+  publish(o, "weights", &all);
+}
+
+// A strip of light that washes a wall from close by, and a box before it.
+static void draw_mistakes(output *o) {
+  enum { W = 117, H = 140 };
+  stage *s = stage_new(o, 64, 8);
+  uint32_t wall = add_material(s, vec3_all(0.7f), vec3_all(0));
+  uint32_t lamp = add_material(s, vec3_all(0), (vec3){9, 8, 6});
+  add_quad(s, (vec3){-2, 0, 0}, (vec3){0, 0, 4}, (vec3){4, 0, 0}, wall);
+  add_quad(s, (vec3){-2, 0, 0}, (vec3){4, 0, 0}, (vec3){0, 4, 0}, wall);
+  add_quad(s, (vec3){-0.7f, 1.95f, 0.12f}, (vec3){1.4f, 0, 0},
+           (vec3){0, 0.12f, 0.1f}, lamp);
+  add_box(s, (vec3){-0.4f, 0, 0.5f}, (vec3){0.8f, 0.9f, 0.5f}, wall);
+  stage_ready(o, s);
+  camera_view v = view_of((vec3){0, 1.6f, 6}, (vec3){0, 1.15f, 0}, 26, W, H);
+  image truth = take(o, s, &v, W, H, (method){.by = BY_LIGHT, .spp = 144});
+  const method ways[4] = {
+      {.by = BY_LIGHT, .any_light = true, .by_area = true, .spp = 4},
+      {.by = BY_LIGHT, .any_light = true, .spp = 4},
+      {.by = BY_LIGHT, .one_key = true, .spp = 2},
+      {.by = BY_LIGHT, .spp = 2}};
+  static const char *const NAMES[] = {"by area", "by solid angle", "one key",
+                                      "a key a pixel"};
+  image parts[4];
+  for (int i = 0; i < 4; i++) {
+    parts[i] = take(o, s, &v, W, H, ways[i]);
+    print_error(NAMES[i], &parts[i], &truth, o);
+    parts[i] = expose(parts[i], 5);
+  }
+  image all = row_of(o, parts, 4);
+  publish(o, "mistakes", &all);
+}
+
+// A town at night: boxes, and 500 lanterns of all colours.
+static stage *town(output *o) {
+  enum { HOUSES = 60, LANTERNS = 500 };
+  stage *s = stage_new(o, 2 + 12 * (HOUSES + LANTERNS), 16);
+  uint32_t ground = add_material(s, vec3_all(0.5f), vec3_all(0));
+  add_quad(s, (vec3){-12, 0, -12}, (vec3){0, 0, 24}, (vec3){24, 0, 0}, ground);
+  rng r = rng_of(5, 0, 0);
+  for (int i = 0; i < HOUSES; i++) {
+    vec3 at = {20 * rng_next(&r) - 10, 0, 20 * rng_next(&r) - 12};
+    float wide = 0.5f + rng_next(&r), high = 0.4f + 2 * rng_next(&r);
+    add_box(s, at, (vec3){wide, high, wide}, ground);
+  }
+  uint32_t hue[8];
+  for (int i = 0; i < 8; i++) {
+    vec3 c = {rng_next(&r), 0.5f * rng_next(&r), rng_next(&r)};
+    c.y += 0.4f * c.x;
+    hue[i] = add_material(s, vec3_all(0), vec3_scale(c, i == 0 ? 400 : 70));
+  }
+  for (int i = 0; i < LANTERNS; i++) {
+    vec3 at = {22 * rng_next(&r) - 11, 0.15f + 0.5f * rng_next(&r),
+               22 * rng_next(&r) - 12};
+    float side = 0.02f + 0.03f * rng_next(&r);
+    add_box(s, at, (vec3){side, side, side}, hue[i % 64 == 0 ? 0 : 1 + i % 7]);
+  }
+  stage_ready(o, s);
+  return s;
+}
+
+static void draw_many(output *o) {
+  enum { W = 238, H = 160, SPP = 8 };
+  stage *s = town(o);
+  camera_view v = view_of((vec3){0, 6, 13}, (vec3){0, 0.2f, -1}, 34, W, H);
+  image truth = take(o, s, &v, W, H, (method){.by = BY_LIGHT, .spp = 64});
+  image parts[2];
+  parts[0] = take(o, s, &v, W, H,
+                  (method){.by = BY_LIGHT, .any_light = true, .spp = SPP});
+  parts[1] = take(o, s, &v, W, H, (method){.by = BY_LIGHT, .spp = SPP});
+  printf("%u lights in the tree\n", s->lights.near.count);
+  print_error("each as likely", &parts[0], &truth, o);
+  print_error("by the tree", &parts[1], &truth, o);
+  image all = row_of(o, parts, 2);
+  publish(o, "many", &all);
+}
+
+// A sky, the density of its table in the same place, and directions drawn.
+static void draw_sky(output *o) {
+  enum { W = 158, H = 79 };
+  static env sky;
+  error err;
+  if (!env_load(&sky, "scenes/sky.hdr", &o->mem, NULL, &err)) give_up(&err);
+  light_env l;
+  light_env_build(&l, &sky, &o->mem, o->threads);
+  image parts[3];
+  for (int k = 0; k < 3; k++) {
+    parts[k] = image_new(&o->mem, W, H);
+    for (int i = 0; i < W * H; i++) {
+      vec2 uv = {((float)(i % W) + 0.5f) / W, ((float)(i / W) + 0.5f) / H};
+      vec3 d = env_direction(uv), c = env_radiance(&sky, d);
+      float pdf = light_env_pdf(&l, d);
+      if (k == 1) c = vec3_all(fmaxf(0.07f * (num_log2(pdf + 1e-6f) + 8), 0));
+      parts[k].pixels[i] = vec3_scale(c, k == 2 ? 0.3f : 0.8f);
+    }
+  }
+  int near_sun = 0;
+  for (uint32_t i = 0; i < 512; i++) {
+    sampler s = sampler_of(SAMPLER_SOBOL, 1, 1, i);
+    vec2 u = sampler_2(&s);
+    vec3 wi;
+    float pdf;
+    if (!light_env_sample(&l, u.x, u.y, &wi, &pdf)) continue;
+    near_sun += vec3_peak(env_radiance(&sky, wi)) > 1000;
+    vec2 uv = env_uv(wi);
+    draw_dot(&parts[2], uv.x * W, uv.y * H, 2, (vec3){1, 0.7f, 0.1f});
+  }
+  printf("%d of 512 directions to the sun\n", near_sun);
+  image all = row_of(o, parts, 3);
+  publish(o, "sky", &all);
+}
+
+static image render(output *o, const stage *s, const integrator *by, int spp,
+                    uint64_t seed) {
+  render_settings set = {
+      .width = 480, .height = 270, .spp = spp, .seed = seed, .by = by};
+  set.x0 = 180, set.y0 = 130, set.x1 = 418, set.y1 = 270;
+  camera_view v;
+  error err;
+  const camera *c = scene_camera(&s->scene, NULL);
+  if (!camera_view_of(&v, c, set.width, set.height, &err)) give_up(&err);
+  render_result r;
+  render_run(&r, &s->world, &v, &set, &o->mem, o->threads);
+  return r.color;
+}
+
+// The garden in the afternoon, 16 samples a pixel: naive, and looking for
+// lights.
+static void draw_shadow(output *o) {
+  stage *s = stage_load(o, "scenes/garden.scene", "scenes/sky.hdr");
+  path_tracer by = {&s->world, &s->lights, SAMPLER_SOBOL, 7};
+  integrator looks = path_integrator(&by);
+  image truth = render(o, s, &looks, 36, 0);
+  by.seed = 0;
+  image parts[2] = {render(o, s, NULL, 16, 0), render(o, s, &looks, 16, 0)};
+  for (int i = 0; i < 2; i++)
+    printf("%-34s mean error %.3f\n",
+           i == 0 ? "naive, 16 samples" : "looking for lights, 16 samples",
+           metric_compare(&parts[i], &truth, &o->mem).mae);
+  for (int i = 0; i < 2; i++)
+    parts[i] = expose(parts[i], num_exp2(s->scene.exposure));
+  image all = row_of(o, parts, 2);
+  publish(o, "shadow", &all);
+}
+
+int main(int argc, char **argv) {
+  if (argc != 2) return 2;
+  output o = {.folder = argv[1]};
+  o.threads = pool_new(&o.mem, pool_default_threads());
+  draw_points(&o);
+  draw_slopes(&o);
+  draw_sky(&o);
+  draw_weights(&o);
+  draw_mistakes(&o);
+  draw_many(&o);
+  draw_shadow(&o);
+  pool_free(o.threads);
+  arena_free(&o.mem);
+  return 0;
+}
