@@ -180,6 +180,16 @@ static bool bounce(wave *w, stop *s, ray *r) {
   return true;
 }
 
+// Whether a ray goes straight on, by chance 1 - opacity.  If not, the number
+// that decided is stretched, uniform again for the roulette.
+static bool goes_through(stop *s) {
+  if (!matter_passes(&s->at->at)) return false;
+  float opacity = matter_opacity(&s->at->at);
+  if (s->u[USE_LIFE] >= opacity) return true;
+  s->u[USE_LIFE] /= opacity;
+  return false;
+}
+
 // What becomes of a path at a vertex; *r is then its next ray.  False where it
 // ends.
 static bool step(wave *w, stop *s, ray *r) {
@@ -187,8 +197,7 @@ static bool step(wave *w, stop *s, ray *r) {
   const path_world *world = w->by->world;
   sampler_8(&p->numbers, 2 + USES * (uint32_t)p->rays, s->u);
   bool goes_on;
-  if (matter_passes(&s->at->at) &&
-      s->u[USE_LIFE] >= matter_opacity(&s->at->at)) {
+  if (goes_through(s)) {
     *r = surface_ray(&s->at->at, r->d);
     goes_on = true;
   } else {

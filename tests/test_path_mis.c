@@ -172,6 +172,25 @@ static void sheets(void **state) {
   world_free(w);
 }
 
+// A dark floor of opacity d shows d of its albedo and 1 - d of what is below:
+// chance that lets a path through and chance that ends it do not know of each
+// other.
+static void dark_sheet(void **state) {
+  (void)state;
+  world *w = world_new();
+  w->scene.env =
+      (env){.kind = ENV_CONSTANT, .constant = vec3_all(1), .scale = 1};
+  w->materials[0] = world_material(MATERIAL_BLINN_PHONG, vec3_all(0.2f), BLACK);
+  w->materials[0].d = 0.5f;
+  w->materials[0].passes = true;
+  add_floor(w, 0);
+  world_ready(w, 0);
+  ray down = ray_from((vec3){0, 1, 0}, (vec3){0.3f, -1, 0});
+  check("dark sheet", mean_along(w, SAMPLER_SOBOL, down, 4096),
+        0.5 * 0.2 + 0.5);
+  world_free(w);
+}
+
 // A scene from its file, with a tree.
 typedef struct set {
   arena mem;
@@ -300,9 +319,10 @@ static void same_bytes(void **state) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(lamp),          cmocka_unit_test(black_ball),
-      cmocka_unit_test(glowing_room),  cmocka_unit_test(sheets),
-      cmocka_unit_test(same_pictures), cmocka_unit_test(same_bytes),
+      cmocka_unit_test(lamp),         cmocka_unit_test(black_ball),
+      cmocka_unit_test(glowing_room), cmocka_unit_test(sheets),
+      cmocka_unit_test(dark_sheet),   cmocka_unit_test(same_pictures),
+      cmocka_unit_test(same_bytes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
