@@ -49,7 +49,7 @@ CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
 CHAPTER_11 := $(CHAPTER_10) lean raster_lean
 CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_split \
              simd_base simd_avx2 simd wide_cost wide_tree wide_levels wide_box wide_edges wide_distance wide_leaf wide_single wide_push \
-             wide_flight wide_stream wide_kernel wide_base wide_avx2 wide_avx512 wide \
+             wide_flight wide_steps wide_stream wide_kernel wide_base wide_avx2 wide_avx512 wide \
              vertex_many_levels vertex_many_kernel vertex_many_base vertex_many_avx2 \
              vertex_many_avx512 vertex_many
 CHAPTER_14 := $(CHAPTER_12) post view_state view_script view_paths view_window

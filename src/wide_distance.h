@@ -40,8 +40,8 @@ SIMD uint32_t leaf_firm(const leaf_shear *c, f8 det) {
 
 // Where the lines of the ray enter and leave the boxes of the triangles
 // themselves, one axis, and the longest side so far: slab_hold of slab.c.
-SIMD void leaf_slab(f8 *near, f8 *far, f8 *side, const uint32_t *leaf,
-                    uint32_t n, uint32_t axis, const wide_walk *w) {
+SIMD void leaf_slab(f8 *near, f8 *far, f8 *side, const uint32_t *leaf, size_t n,
+                    uint32_t axis, const wide_walk *w) {
   f8 a = leaf_load(leaf, n, 0, axis), b = leaf_load(leaf, n, 1, axis);
   f8 c = leaf_load(leaf, n, 2, axis), inv = f8_all(w->inv[axis]);
   f8 lo = f8_min(f8_min(a, b), c), hi = f8_max(f8_max(a, b), c);
@@ -57,21 +57,23 @@ SIMD void leaf_slab(f8 *near, f8 *far, f8 *side, const uint32_t *leaf,
 // What is left of the candidates m: t of triangle_hit and slab_hold for those
 // that single precision decides, the others in *unsure.
 SIMD uint32_t leaf_distances(leaf_shear *c, const wide_walk *w,
-                             const uint32_t *leaf, uint32_t n, uint32_t m,
+                             const uint32_t *leaf, size_t n, uint32_t m,
                              float out_t[8], float out_det[8],
                              uint32_t *unsure) {
   f8 zero = f8_all(0), sz = f8_all(w->shear.sz), infinite = f8_all(INFINITY);
   f8 det = f8_add(f8_add(c->e[0], c->e[1]), c->e[2]), size = f8_abs(det);
-  for (int i = 0; i < 3; i++)
-    c->z[i] = f8_mul(sz, c->z[i]);
+  c->z[0] = f8_mul(sz, c->z[0]);
+  c->z[1] = f8_mul(sz, c->z[1]);
+  c->z[2] = f8_mul(sz, c->z[2]);
   f8 t = f8_add(f8_mul(c->e[0], c->z[0]), f8_mul(c->e[1], c->z[1]));
   t = f8_div(f8_add(t, f8_mul(c->e[2], c->z[2])), det);
   f8 small = f8_min(f8_min(f8_abs(c->e[0]), f8_abs(c->e[1])), f8_abs(c->e[2]));
   uint32_t sure = f8_lt(zero, small) & f8_lt(f8_all(FLT_MIN * 0x1p24f), size) &
                   f8_lt(size, infinite) & f8_lt(leaf_error(c, det), f8_abs(t));
   f8 near = f8_all(-INFINITY), far = infinite, side = zero;
-  for (uint32_t k = 0; k < 3; k++)
-    leaf_slab(&near, &far, &side, leaf, n, k, w);
+  leaf_slab(&near, &far, &side, leaf, n, 0, w);
+  leaf_slab(&near, &far, &side, leaf, n, 1, w);
+  leaf_slab(&near, &far, &side, leaf, n, 2, w);
   sure &= f8_le(side, f8_all(w->large)) | leaf_firm(c, det);
   *unsure = m & ~sure;
   f8 tmin = f8_all(w->r.tmin), tmax = f8_all(w->r.tmax);

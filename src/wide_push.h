@@ -17,12 +17,6 @@ SIMD float key_near(uint32_t key) {
   return t;
 }
 
-// a where yes, else b, by arithmetic: there is nothing to guess.
-SIMD uint32_t pick_u32(bool yes, uint32_t a, uint32_t b) {
-  uint32_t mask = 0u - (uint32_t)yes;
-  return (a & mask) | (b & ~mask);
-}
-
 #if defined(__AVX2__)
 
 // One layer of a sorting network: each lane against lane i ^ something of the
@@ -49,7 +43,7 @@ SIMD __m256i sort_keys(__m256i v) {
 // Put the children of mask m on a stack, the nearest last, and return how many
 // there are.  Writes eight places.
 SIMD uint32_t push_children(uint32_t *key, uint32_t *child, const wide_node *n,
-                            uint32_t m, f8 near, uint32_t *next) {
+                            uint32_t m, f8 near) {
   const __m256i lane = _mm256_setr_epi32(8, 9, 10, 11, 12, 13, 14, 15);
   __m256i v = _mm256_castps_si256(near.v);
   v = _mm256_or_si256(_mm256_and_si256(v, _mm256_set1_epi32(~15)), lane);
@@ -63,19 +57,15 @@ SIMD uint32_t push_children(uint32_t *key, uint32_t *child, const wide_node *n,
   v = sort_keys(v);
   __m256i c = _mm256_loadu_si256((const __m256i *)(const void *)n->child);
   _mm256_storeu_si256((__m256i *)(void *)key, v);
-  c = _mm256_permutevar8x32_epi32(c, v);
-  uint32_t count = (uint32_t)__builtin_popcount(m), below = child[-1];
-  _mm256_storeu_si256((__m256i *)(void *)child, c);
-  c = _mm256_permutevar8x32_epi32(c, _mm256_set1_epi32((int)count - 1));
-  uint32_t top = (uint32_t)_mm256_cvtsi256_si32(c);
-  *next = pick_u32(m != 0, top, below);
-  return count;
+  _mm256_storeu_si256((__m256i *)(void *)child,
+                      _mm256_permutevar8x32_epi32(c, v));
+  return (uint32_t)__builtin_popcount(m);
 }
 
 #else
 
 SIMD uint32_t push_children(uint32_t *key, uint32_t *child, const wide_node *n,
-                            uint32_t m, f8 near, uint32_t *next) {
+                            uint32_t m, f8 near) {
   uint32_t bits[8], count = 0;
   memcpy(bits, &near, sizeof bits);
   for (; m != 0; m &= m - 1) {
@@ -87,10 +77,25 @@ SIMD uint32_t push_children(uint32_t *key, uint32_t *child, const wide_node *n,
     key[at] = bits[i];
     child[at] = n->child[i];
   }
-  *next = child[(int)count - 1];
   return count;
 }
 
 #endif
+
+// The same in whatever order, for rays that stop at any hit: they need no key.
+SIMD uint32_t push_unsorted(uint32_t *child, const wide_node *n, uint32_t m) {
+#if defined(__AVX512VL__)
+  __m256i c = _mm256_loadu_si256((const __m256i *)(const void *)n->child);
+  _mm256_storeu_si256((__m256i *)(void *)child,
+                      _mm256_maskz_compress_epi32((__mmask8)m, c));
+#else
+  uint32_t count = 0;
+  for (uint32_t i = 0; i < WIDE; i++) {
+    child[count] = n->child[i];
+    count += m >> i & 1;
+  }
+#endif
+  return (uint32_t)__builtin_popcount(m);
+}
 
 #endif
