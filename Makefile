@@ -29,7 +29,7 @@ endif
 # module includes only modules on its left or above (tests/floors.t), and the
 # program of a chapter links only the modules that it and the chapters before
 # it explain: the linker proves the reading order.
-CHAPTER_1 := vec error arena report file image png pfm hdr jpeg tga picture metric
+CHAPTER_1 := scalar vec error arena report file image png pfm hdr jpeg tga picture metric
 CHAPTER_2 := $(CHAPTER_1) cpu_quota pool number text path_find polygon \
              mesh name_table mtl_map mtl mtl_read obj_source obj_corner \
              pages obj_chunk obj_line obj_parse obj_pack obj_merge obj_events obj normals
@@ -50,8 +50,8 @@ CHAPTER_11 := $(CHAPTER_10) lean raster_lean
 CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_split \
              simd_base simd_avx2 simd wide_cost wide_tree wide_levels wide_box wide_edges wide_distance wide_leaf wide_single wide_push \
              wide_flight wide_steps wide_stream wide_kernel wide_base wide_avx2 wide_avx512 wide \
-             vertex_many_levels vertex_many_kernel vertex_many_base vertex_many_avx2 \
-             vertex_many_avx512 vertex_many
+             vertex_many_levels vertex_lanes vertex_lanes_facet vertex_lanes_smooth \
+             vertex_many_kernel vertex_many_base vertex_many_avx2 vertex_many_avx512 vertex_many
 CHAPTER_14 := $(CHAPTER_12) post view_state view_script view_paths view_window
 CHAPTER_15 := $(CHAPTER_14) glyph sketch plot two_means halves adaptive doubling
 LIBRARY   := $(CHAPTER_15)

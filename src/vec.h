@@ -1,24 +1,16 @@
 // vec.h — points, directions and colours as three floats.
 //
-// Floor 0: includes nothing of ours.  Every function is pure and inline.
+// Every function is pure and inline.
 
 #ifndef VEC_H
 #define VEC_H
+
+#include "scalar.h"
 
 #include <math.h>
 #include <stdbool.h>
 
 #define PI 3.14159265f
-
-// fmaxf and fminf, which compilers call from a library because they need not
-// trust that no number is a NaN: a number beside a NaN wins.
-static inline float float_max(float a, float b) {
-  return a > b || b != b ? a : b;
-}
-
-static inline float float_min(float a, float b) {
-  return a < b || b != b ? a : b;
-}
 
 // Three floats: a point or direction in world units, or linear RGB.
 typedef struct vec3 {

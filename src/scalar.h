@@ -1,0 +1,18 @@
+// scalar.h — the larger and the smaller of two floats.
+//
+// Floor 0: includes nothing of ours.
+
+#ifndef SCALAR_H
+#define SCALAR_H
+
+// fmaxf and fminf, which compilers call from a library because they need not
+// trust that no number is a NaN: a number beside a NaN wins.
+static inline float float_max(float a, float b) {
+  return a > b || b != b ? a : b;
+}
+
+static inline float float_min(float a, float b) {
+  return a < b || b != b ? a : b;
+}
+
+#endif
