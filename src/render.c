@@ -7,10 +7,15 @@
 #include "clock.h"
 #include "film.h"
 #include "first_hit.h"
+#include "tally.h"
 
 #include <stdatomic.h>
 
 enum { TILE = RENDER_TILE };
+
+// A thread takes a run of tiles, so many that one sample of each pixel fills a
+// batch; but each thread should get several runs.
+enum { TILE_RUN = INTEGRATOR_BATCH / (TILE * TILE), RUNS = 8 };
 
 // The seconds that a pass should take where someone waits for its end, and
 // between two calls of the progress function.
@@ -19,13 +24,6 @@ enum { TILE = RENDER_TILE };
 
 // The fewest samples a pixel after which the estimated error is believed.
 enum { ERROR_MIN_SPP = 16 };
-
-// What one worker counts.
-typedef struct tally {
-  path_stats paths;
-  uint64_t samples, non_finite;
-  uint64_t bad_sample, bad_pixel;  // the first dropped one, sample before pixel
-} tally;
 
 // A worker: its counts, apart from its neighbour's cache line, and the samples
 // that it has taken up: where they start and which pixel of the window each
@@ -51,7 +49,7 @@ typedef struct job {
   const camera_view *view;
   const render_settings *set;
   int x0, y0, width, height;  // the crop window
-  int tiles_across, tile_count;
+  int tiles_across, tile_count, run;
   film color;
   first_films first;
   float farthest;         // of the scene along the view axis
@@ -90,16 +88,6 @@ static bool wants_first(const render_settings *s) {
   return s->shading != RENDER_RADIANCE || (s->aovs & of_first) != 0;
 }
 
-// Note a sample that is not finite; the first is the one with the lowest
-// sample number, then the lowest pixel, for any number of threads and passes.
-static void drop_sample(tally *t, uint64_t sample, uint64_t pixel) {
-  bool first = t->non_finite++ == 0 || sample < t->bad_sample ||
-               (sample == t->bad_sample && pixel < t->bad_pixel);
-  if (!first) return;
-  t->bad_sample = sample;
-  t->bad_pixel = pixel;
-}
-
 // Take up the sample of the given number of pixel (x, y) of the window.
 static void start_sample(const job *j, int x, int y, uint32_t sample,
                          worker *w) {
@@ -126,7 +114,7 @@ static void end_samples(job *j, worker *w) {
     vec3 color = j->set->shading == RENDER_RADIANCE ? w->colors[k]
                                                     : shade_first(j, &first);
     if (!vec3_finite(color)) {
-      drop_sample(t, s->sample, s->pixel);
+      tally_drop(t, s->sample, s->pixel);
       continue;
     }
     film_add(&j->color, w->pixels[k], color);
@@ -185,21 +173,29 @@ static bool next_sample(const job *j, size_t tile, uint32_t *at,
   return *sample < (uint32_t)j->end;
 }
 
-// Work of the pool: the samples of this pass in one tile.
-static void render_tile(void *context, size_t item, int number) {
-  job *j = context;
-  int tx = (int)item % j->tiles_across * TILE;
-  int ty = (int)item / j->tiles_across * TILE;
-  worker *w = &j->team[number];
+// The samples of this pass in one tile; a few may be left taken up.
+static void render_tile(job *j, size_t tile, worker *w) {
+  int tx = (int)tile % j->tiles_across * TILE;
+  int ty = (int)tile / j->tiles_across * TILE;
   uint32_t at = 0, sample;
-  while (next_sample(j, item, &at, &sample)) {
+  while (next_sample(j, tile, &at, &sample)) {
     for (int y = ty; y < ty + TILE && y < j->height; y++)
       for (int x = tx; x < tx + TILE && x < j->width; x++)
         start_sample(j, x, y, sample, w);
     if (w->count + TILE * TILE > INTEGRATOR_BATCH) end_samples(j, w);
   }
+}
+
+// Work of the pool: a run of tiles.
+static void render_tiles(void *context, size_t item, int number) {
+  job *j = context;
+  worker *w = &j->team[number];
+  int begin = (int)item * j->run, end = begin + j->run;
+  if (end > j->tile_count) end = j->tile_count;
+  for (int tile = begin; tile < end; tile++)
+    render_tile(j, (size_t)tile, w);
   end_samples(j, w);
-  atomic_fetch_add(&j->done, 1);
+  atomic_fetch_add(&j->done, end - begin);
   if (number != 0 || j->set->progress == NULL) return;
   double now = clock_seconds();
   if (now - j->last_progress >= PROGRESS_SECONDS) tell_progress(j, now);
@@ -295,16 +291,11 @@ static worker *hire_workers(const job *j, arena *mem) {
 
 static void sum_tallies(render_result *out, const job *j) {
   tally all = {0};
-  for (int i = 0; i < j->workers; i++) {
-    const tally *t = &j->team[i].tally;
-    out->rays += t->paths.rays;
-    out->cut += t->paths.cut;
-    out->samples += t->samples;
-    if (t->non_finite == 0) continue;
-    uint64_t before = all.non_finite;
-    drop_sample(&all, t->bad_sample, t->bad_pixel);
-    all.non_finite = before + t->non_finite;
-  }
+  for (int i = 0; i < j->workers; i++)
+    tally_add(&all, &j->team[i].tally);
+  out->rays = all.paths.rays;
+  out->cut = all.paths.cut;
+  out->samples = all.samples;
   out->non_finite = all.non_finite;
   out->bad_x = (int)(all.bad_pixel % (uint64_t)j->set->width);
   out->bad_y = (int)(all.bad_pixel / (uint64_t)j->set->width);
@@ -362,7 +353,8 @@ static void hand_snapshot(const job *j) {
 static void render_passes(job *j, pool *threads) {
   while (plan_pass(j)) {
     atomic_store(&j->done, 0);
-    pool_run(threads, (size_t)j->tile_count, render_tile, j);
+    size_t runs = (size_t)((j->tile_count + j->run - 1) / j->run);
+    pool_run(threads, runs, render_tiles, j);
     j->error = error_so_far(j);
     hand_snapshot(j);
   }
@@ -386,6 +378,9 @@ void render_run(render_result *out, const path_world *world,
   path_naive naive = {world, s->seed};
   j.by = s->by != NULL ? *s->by : path_naive_integrator(&naive);
   j.workers = threads == NULL ? 1 : pool_threads(threads);
+  j.run = j.tile_count / (RUNS * j.workers);
+  if (j.run < 1) j.run = 1;
+  if (j.run > TILE_RUN) j.run = TILE_RUN;
   j.team = hire_workers(&j, &scratch);
   make_films(&j, &scratch);
   render_passes(&j, threads);
