@@ -74,16 +74,18 @@ SIMD uint32_t leaf_distances(leaf_shear *c, const wide_walk *w,
   leaf_slab(&near, &far, &side, leaf, n, 0, w);
   leaf_slab(&near, &far, &side, leaf, n, 1, w);
   leaf_slab(&near, &far, &side, leaf, n, 2, w);
-  sure &= f8_le(side, f8_all(w->large)) | leaf_firm(c, det);
-  *unsure = m & ~sure;
   f8 tmin = f8_all(w->r.tmin), tmax = f8_all(w->r.tmax);
+  f8 best = f8_all(w->best.t);
   uint32_t in = f8_lt(zero, t) & f8_le(tmin, t) & f8_le(t, tmax) &
-                f8_lt(t, infinite) & f8_le(near, far);
+                f8_lt(t, infinite) & f8_le(near, far) & f8_le(near, best);
+  // Held to a point, t stays in the span of the triangle's box.
+  uint32_t held = f8_le(side, f8_all(w->large)) | leaf_firm(c, det);
+  *unsure = m & (~sure | (in & ~held));
   t = f8_min(far, f8_max(near, t));
   f8_store(out_t, t);
   f8_store(out_det, det);
-  return m & sure & in & f8_le(tmin, t) & f8_le(t, tmax) &
-         f8_le(t, f8_all(w->best.t));
+  return m & sure & held & in & f8_le(tmin, t) & f8_le(t, tmax) &
+         f8_le(t, best);
 }
 
 #endif
