@@ -4,26 +4,26 @@
 
 #include <string.h>
 
-typedef uint32_t lanes __attribute__((vector_size(16)));
-typedef int32_t signed_lanes __attribute__((vector_size(16)));
-typedef float float_lanes __attribute__((vector_size(16)));
+typedef uint32_t four __attribute__((vector_size(16)));
+typedef int32_t signed_four __attribute__((vector_size(16)));
+typedef float float_four __attribute__((vector_size(16)));
 
 // Lanes a to d of v.
-#define SPREAD(v, a, b, c, d) ((lanes){(v)[a], (v)[b], (v)[c], (v)[d]})
+#define SPREAD(v, a, b, c, d) ((four){(v)[a], (v)[b], (v)[c], (v)[d]})
 
 // Eight dimensions, from the first up.
 typedef struct eight {
-  lanes lo, hi;
+  four lo, hi;
 } eight;
 
-static lanes seeds_of(uint64_t key, lanes dimension) {
-  lanes x = (uint32_t)key + 0x9e3779b9u * dimension;
+static four seeds_of(uint64_t key, four dimension) {
+  four x = (uint32_t)key + 0x9e3779b9u * dimension;
   x = (x ^ (x >> 16)) * 0x21f0aaadu;
   x = (x ^ (x >> 15)) * 0xd35a2d97u;
   return x ^ (x >> 15) ^ (uint32_t)(key >> 32);
 }
 
-static lanes scramble(lanes digits, lanes seed) {
+static four scramble(four digits, four seed) {
   digits ^= digits * 0x3d20adeau;
   digits += seed;
   digits *= (seed >> 16) | 1;
@@ -32,7 +32,7 @@ static lanes scramble(lanes digits, lanes seed) {
   return digits;
 }
 
-static lanes reverse(lanes x) {
+static four reverse(four x) {
   x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
   x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
   x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
@@ -41,22 +41,22 @@ static lanes reverse(lanes x) {
 }
 
 // The number of the point in four blocks, from that of `dimension` on.
-static lanes shuffled(const sampler *s, uint32_t dimension) {
+static four shuffled(const sampler *s, uint32_t dimension) {
   uint32_t block = dimension / SAMPLER_BLOCK;
-  lanes blocks = {block, block + 1, block + 2, block + 3};
+  four blocks = {block, block + 1, block + 2, block + 3};
   uint32_t in_order = sobol_reverse(s->index);
-  lanes digits = {in_order, in_order, in_order, in_order}, zero = {0};
-  lanes seed = seeds_of(s->key, ~(blocks - SAMPLER_JOINT / SAMPLER_BLOCK));
-  lanes index = reverse(scramble(digits, seed) ^ scramble(zero, seed));
-  lanes joint = (lanes)(blocks < SAMPLER_JOINT / SAMPLER_BLOCK);
+  four digits = {in_order, in_order, in_order, in_order}, zero = {0};
+  four seed = seeds_of(s->key, ~(blocks - SAMPLER_JOINT / SAMPLER_BLOCK));
+  four index = reverse(scramble(digits, seed) ^ scramble(zero, seed));
+  four joint = (four)(blocks < SAMPLER_JOINT / SAMPLER_BLOCK);
   return (index & ~joint) | (s->index & joint);
 }
 
 // The number of the point for each of eight dimensions.
 static eight indices_of(const sampler *s, uint32_t dimension) {
   if (dimension + 8 <= SAMPLER_JOINT)
-    return (eight){s->index + (lanes){0}, s->index + (lanes){0}};
-  lanes of = shuffled(s, dimension);
+    return (eight){s->index + (four){0}, s->index + (four){0}};
+  four of = shuffled(s, dimension);
   switch (dimension % SAMPLER_BLOCK) {
   case 0: return (eight){SPREAD(of, 0, 0, 0, 0), SPREAD(of, 1, 1, 1, 1)};
   case 1: return (eight){SPREAD(of, 0, 0, 0, 1), SPREAD(of, 1, 1, 1, 2)};
@@ -83,21 +83,21 @@ static eight digits_of(const sampler *s, uint32_t dimension) {
   return digits;
 }
 
-static void numbers_of(lanes digits, lanes seed, float *out) {
-  lanes bits = reverse(scramble(digits, seed)) >> 8;
-  float_lanes numbers =
-      __builtin_convertvector((signed_lanes)bits, float_lanes) * 0x1p-24f;
+static void numbers_of(four digits, four seed, float *out) {
+  four bits = reverse(scramble(digits, seed)) >> 8;
+  float_four numbers =
+      __builtin_convertvector((signed_four)bits, float_four) * 0x1p-24f;
   memcpy(out, &numbers, sizeof numbers);
 }
 
 static void sobol_8(const sampler *s, uint32_t dimension, float out[8]) {
   eight digits = digits_of(s, dimension);
-  lanes d = {dimension, dimension + 1, dimension + 2, dimension + 3};
+  four d = {dimension, dimension + 1, dimension + 2, dimension + 3};
   numbers_of(digits.lo, seeds_of(s->key, d), out);
   numbers_of(digits.hi, seeds_of(s->key, d + 4), out + 4);
 }
 
-// SSE 4.1 multiplies four lanes at once, x86-64 alone cannot.
+// SSE 4.1 multiplies four integers at once, x86-64 alone cannot.
 #if defined(__x86_64__)
 static void sobol_8_sse41(const sampler *s, uint32_t dimension, float out[8])
     __attribute__((target("sse4.1"), flatten));
