@@ -12,9 +12,10 @@
 enum { SOBOL_DIMENSIONS = 8, SOBOL_BITS = 32, SOBOL_ROW = 20 };
 
 // Row k, column d: the digits of dimension d that bit k of the index flips, of
-// which digit k is the last.  Dimensions 2i and 2i + 1 together are a (0, 2)
-// sequence: each aligned run of 2^m points has one in every box of size 2^-m.
-// Behind the eight, the first four three times over.
+// which digit k is the last.  The first two are Sobol's; dimensions 2i and 2i +
+// 1 together are a (0, 2) sequence: each aligned run of 2^m points has one in
+// every box of size 2^-m. Behind the eight, the first four three times over.
+// Source: Sobol' 1967.
 extern const uint32_t SOBOL_COLUMNS[SOBOL_BITS][SOBOL_ROW];
 
 // The digits of point `index`.

@@ -1,6 +1,7 @@
 // figures.c — the pictures of chapter 10, and the numbers that its text quotes.
 
 #include "bvh.h"
+#include "clock.h"
 #include "light_emission.h"
 #include "metric.h"
 #include "num.h"
@@ -569,7 +570,10 @@ static image render(output *o, const stage *s, const integrator *by, int spp,
 // lights.
 static void draw_shadow(output *o) {
   stage *s = stage_load(o, "scenes/garden.scene", "scenes/sky.hdr");
-  path_tracer by = {&s->world, &s->lights, SAMPLER_SOBOL, 7};
+  path_tracer by = {.world = &s->world,
+                    .lights = &s->lights,
+                    .sampler = SAMPLER_SOBOL,
+                    .seed = 7};
   integrator looks = path_integrator(&by);
   image truth = render(o, s, &looks, 36, 0);
   by.seed = 0;
@@ -584,6 +588,65 @@ static void draw_shadow(output *o) {
   publish(o, "shadow", &all);
 }
 
+// The least seconds of several runs for each of n calls, in nanoseconds.
+typedef float (*timed)(const void *context, uint32_t i);
+
+static void print_time(const char *what, timed call, const void *context,
+                       uint32_t n) {
+  double best = INFINITY;
+  volatile float sink = 0;
+  for (int run = 0; run < 9; run++) {
+    double start = clock_seconds();
+    for (uint32_t i = 0; i < n; i++)
+      sink = sink + call(context, i);
+    best = fmin(best, clock_seconds() - start);
+  }
+  printf("%-40s %6.1f ns\n", what, 1e9 * best / n);
+}
+
+static float eight_numbers(const void *dimension, uint32_t i) {
+  sampler s = sampler_of(SAMPLER_SOBOL, 1, i / 64, i % 1024);
+  float u[8];
+  sampler_8(&s, *(const uint32_t *)dimension, u);
+  return u[0] + u[7];
+}
+
+static float one_by_one(const void *dimension, uint32_t i) {
+  sampler s = sampler_of(SAMPLER_SOBOL, 1, i / 64, i % 1024);
+  sampler_at(&s, *(const uint32_t *)dimension);
+  float sum = 0;
+  for (int k = 0; k < 8; k++)
+    sum += sampler_1(&s);
+  return sum;
+}
+
+static float random_ones(const void *context, uint32_t i) {
+  (void)context;
+  rng r = rng_of(1, i / 64, i % 1024);
+  float sum = 0;
+  for (int k = 0; k < 8; k++)
+    sum += rng_next(&r);
+  return sum;
+}
+
+static float light_of(const void *lights, uint32_t i) {
+  vec3 u = {(float)(i % 61) / 61, (float)(i % 59) / 59, (float)(i % 53) / 53};
+  vec3 p = {5 * u.y - 2.5f, -2, 5 * u.z};
+  light_sample s;
+  return light_sample_at(lights, p, (vec3){0, 1, 0}, u, &s) ? s.pdf : 0;
+}
+
+static void print_times(output *o) {
+  const uint32_t first = 0, later = 18, n = 20000;
+  print_time("eight numbers, the first dimensions", eight_numbers, &first, n);
+  print_time("eight numbers, later dimensions", eight_numbers, &later, n);
+  print_time("the first one by one", one_by_one, &first, n);
+  print_time("later ones one by one", one_by_one, &later, n);
+  print_time("eight of rng.h", random_ones, NULL, n);
+  print_time("a sample of 8 lamps", light_of, &plates(o)->lights, n);
+  print_time("a sample of 6000 lamps", light_of, &town(o)->lights, n);
+}
+
 int main(int argc, char **argv) {
   if (argc != 2) return 2;
   output o = {.folder = argv[1]};
@@ -595,6 +658,7 @@ int main(int argc, char **argv) {
   draw_mistakes(&o);
   draw_many(&o);
   draw_shadow(&o);
+  print_times(&o);
   pool_free(o.threads);
   arena_free(&o.mem);
   return 0;
