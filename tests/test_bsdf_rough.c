@@ -216,6 +216,120 @@ static void samples_follow_pdf(void **state) {
   }
 }
 
+// The same for lobes too narrow to be integrated over directions: down to the
+// least roughness, and grazing.
+enum { NARROW = 12 };
+static const sampler_case NARROW_CASE[NARROW] = {
+    {0.95f, 0.001f}, {0.5f, 0.001f}, {0.1f, 0.001f}, {0.02f, 0.001f},
+    {0.95f, 0.01f},  {0.5f, 0.01f},  {0.1f, 0.01f},  {0.02f, 0.01f},
+    {0.9f, 0.1f},    {0.3f, 0.1f},   {0.05f, 0.1f},  {0.01f, 1}};
+
+// How directions are sorted: by cosine and turns about the normal, or, fine
+// where the lobe is, by how far and whereto the half vector is tilted.
+typedef enum sorting { BY_DIRECTION, BY_TILT } sorting;
+
+// The cell of a share in [0, 1] along and of turns around.
+static int cell_of(double along, double turns) {
+  int row = (int)(along * ROWS),
+      column = (int)((turns - floor(turns)) * COLUMNS);
+  if (row >= ROWS) row = ROWS - 1;
+  if (column >= COLUMNS) column = COLUMNS - 1;
+  return row * COLUMNS + column;
+}
+
+static double turns_of(double y, double x) {
+  return atan2(y, x) / (2 * (double)PI);
+}
+
+// A facet's slope, in units of alpha, has length m with a share m^2 / (1 + m^2)
+// of all facets below it.
+static int tilt_cell(double sx, double sy, double alpha) {
+  double m2 = (sx * sx + sy * sy) / (alpha * alpha);
+  return cell_of(m2 / (1 + m2), turns_of(sy, sx));
+}
+
+// The cell of light that a facet of that slope mirrors, in double.
+static int facet_cell(sorting by, const double wo[3], double sx, double sy,
+                      double alpha) {
+  double length2 = 1 + sx * sx + sy * sy;
+  double twice = 2 * (wo[0] * sx + wo[1] * sy + wo[2]) / length2;
+  double x = twice * sx - wo[0], y = twice * sy - wo[1], z = twice - wo[2];
+  if (!(z > 0)) return CELLS;
+  return by == BY_TILT ? tilt_cell(sx, sy, alpha) : cell_of(z, turns_of(y, x));
+}
+
+// The probability of each cell: facets in known shares of their distribution,
+// the steep ones, which are rare, in finer steps, each weighed by what the
+// viewer sees of it.
+static void facet_shares(sorting by, const double wo[3], double alpha,
+                         double *expected) {
+  const int n = (int)shortened(2000) + 100, around = 720;
+  double all = 0;
+  for (int i = 0; i <= CELLS; i++)
+    expected[i] = 0;
+  for (int i = 0; i < n; i++)
+    for (int k = 0; k < around; k++) {
+      double rest = 1 - (i + 0.5) / n, shift = fmod(i * 0.6180339887, 1);
+      double turn = 2 * (double)PI * (k + shift) / around;
+      double rare = rest * rest * rest * rest;
+      double m = alpha * sqrt((1 - rare) / rare);
+      double sx = m * cos(turn), sy = m * sin(turn);
+      double seen = fmax(wo[0] * sx + wo[1] * sy + wo[2], 0);
+      seen *= rest * rest * rest;
+      expected[facet_cell(by, wo, sx, sy, alpha)] += seen;
+      all += seen;
+    }
+  for (int i = 0; i <= CELLS; i++)
+    expected[i] /= all;
+}
+
+// Cells of n samples of a metal, and the largest weight.
+static double count_facets(counted *c, sorting by, const bsdf_rough *b, vec3 wo,
+                           long n) {
+  double largest = 0;
+  for (long k = 0; k < n; k++) {
+    rng r = rng_of(77, 0, (uint64_t)k);
+    float u[3] = {rng_next(&r), rng_next(&r), rng_next(&r)};
+    vec3 wi, weight;
+    int cell = CELLS;
+    if (bsdf_rough_sample(b, wo, u, &wi, &weight)) {
+      double x = (double)wi.x + (double)wo.x, y = (double)wi.y + (double)wo.y;
+      double z = (double)wi.z + (double)wo.z;
+      cell = by == BY_TILT
+                 ? tilt_cell(x / z, y / z, (double)b->terms.alpha)
+                 : cell_of((double)wi.z, turns_of((double)wi.y, (double)wi.x));
+      largest = fmax(largest, (double)weight.x);
+    }
+    c->cells[cell]++;
+  }
+  return largest;
+}
+
+// Narrow lobes and grazing ones are distributed as visible facets are: sorted
+// by direction, and, where the floats of wi can tell, by the tilt of the
+// facet; and no weight exceeds 1.
+static void narrow_lobes_follow_their_facets(void **state) {
+  const tables *t = *state;
+  long n = shortened(1000000);
+  for (int i = 0; i < 2 * NARROW; i++) {
+    sampler_case at = NARROW_CASE[i / 2];
+    sorting by = i % 2 == 0 ? BY_DIRECTION : BY_TILT;
+    bsdf_rough b = bsdf_rough_of(&t->of[PBR_GGX], WHITE, 1, at.roughness);
+    // The rounding of wi moves the half vector by 1e-7 over its cosine.
+    if (by == BY_TILT && !(b.terms.alpha * at.cos_o > 9e-6f)) continue;
+    vec3 wo = at_angle(at.cos_o, 0.13f);
+    const double exact[3] = {(double)wo.x, (double)wo.y, (double)wo.z};
+    double expected[CELLS + 1];
+    counted c = {0};
+    facet_shares(by, exact, (double)b.terms.alpha, expected);
+    double largest = count_facets(&c, by, &b, wo, n), p = fit(&c, expected, n);
+    print_message("# cos_o %.2f r %.3f by %s: p = %.3f, largest %.3f\n",
+                  (double)at.cos_o, (double)at.roughness,
+                  by == BY_TILT ? "tilt" : "direction", p, largest);
+    assert_true(p > 1.1e-3 && largest <= 1 + 1e-6);
+  }
+}
+
 // A random surface of any roughness and kind.
 static bsdf_rough any_surface(const tables *t, rng *r) {
   vec3 c = {rng_next(r), rng_next(r), rng_next(r)};
@@ -298,6 +412,7 @@ static void ends(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(samples_follow_pdf),
+      cmocka_unit_test(narrow_lobes_follow_their_facets),
       cmocka_unit_test(weight_is_the_quotient),
       cmocka_unit_test(coat_weighs_at_most_one),
       cmocka_unit_test(porcelain_loses_nothing),
