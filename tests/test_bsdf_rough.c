@@ -263,7 +263,7 @@ static int facet_cell(sorting by, const double wo[3], double sx, double sy,
 // viewer sees of it.
 static void facet_shares(sorting by, const double wo[3], double alpha,
                          double *expected) {
-  const int n = (int)shortened(2000) + 100, around = 720;
+  const int n = (int)shortened(4000) + 100, around = 1440;
   double all = 0;
   for (int i = 0; i <= CELLS; i++)
     expected[i] = 0;
