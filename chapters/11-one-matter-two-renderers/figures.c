@@ -13,6 +13,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+// Steps of roughness from 0 to 1 where lengths are known.
+enum { LENGTHS = 101 };
+
 // Where the pictures go, the tables, and what draws.
 typedef struct gallery {
   const char *folder;
@@ -20,6 +23,7 @@ typedef struct gallery {
   pool *threads;
   dfg table[2];  // by pbr_model
   lean lobes;
+  float length[LENGTHS];  // of the mean of a lobe seen head-on, by roughness
   gl *g;
   raster_rough rough[2];
   raster_lean lean;
@@ -66,10 +70,7 @@ static daylight *daylight_new(gallery *o, env e, int models) {
   ibl_source_make(&l->source, &l->env, &o->mem, o->threads);
   l->rest = (env){.kind = ENV_MAP, .map = l->source.map, .scale = 1};
   for (int model = 0; model < models; model++) {
-    ibl_need need = {.model = (pbr_model)model,
-                     .diffuse = true,
-                     .roughness = ROUGH,
-                     .count = STEPS};
+    ibl_need need = {.model = (pbr_model)model, .diffuse = true, .all = true};
     ibl_make(&l->ibl[model], &l->env, &need, &o->mem, o->threads);
   }
   return l;
@@ -183,48 +184,127 @@ static vec3 truth_ground(const view_of *v, const frame *f, const env *e) {
   return vec3_scale(sum, PI / (float)v->points);
 }
 
+// A direction in the frame.
+static vec3 frame_in(const frame *f, vec3 d) {
+  return (vec3){vec3_dot(d, f->t), vec3_dot(d, f->b), vec3_dot(d, f->n)};
+}
+
+static vec3 true_ground(const view_of *v, const daylight *l) {
+  frame f = frame_of(v->n, v->wo);
+  vec3 sum = truth_ground(v, &f, &l->rest);
+  for (int i = 0; i < l->source.sun_count; i++) {
+    vec3 wi = frame_in(&f, l->source.suns[i].direction);
+    if (!(wi.z > 0)) continue;
+    half_angles a = half_angles_of((vec3){0, 0, 1}, f.wo, wi);
+    vec3 seen = vec3_scale(ground_at(&v->b, a), wi.z);
+    sum = vec3_add(sum, vec3_mul(seen, l->source.suns[i].power));
+  }
+  return sum;
+}
+
 // The light that an unobstructed surface sends to the viewer.
 static vec3 truth(const view_of *v, const daylight *l) {
   frame f = frame_of(v->n, v->wo);
-  vec3 sum =
-      vec3_add(truth_coat(v, &f, &l->rest), truth_ground(v, &f, &l->rest));
+  vec3 sum = vec3_add(truth_coat(v, &f, &l->rest), true_ground(v, l));
   for (int i = 0; i < l->source.sun_count; i++) {
-    const ibl_sun *s = &l->source.suns[i];
-    vec3 d = s->direction;
-    vec3 wi = {vec3_dot(d, f.t), vec3_dot(d, f.b), vec3_dot(d, f.n)};
-    vec3 seen = vec3_scale(bsdf_rough_eval(&v->b, f.wo, wi), fmaxf(wi.z, 0));
-    sum = vec3_add(sum, vec3_mul(seen, s->power));
+    vec3 wi = frame_in(&f, l->source.suns[i].direction);
+    if (!(wi.z > 0)) continue;
+    half_angles a = half_angles_of((vec3){0, 0, 1}, f.wo, wi);
+    vec3 seen = vec3_scale(rough_specular(&v->b.terms, a), wi.z);
+    sum = vec3_add(sum, vec3_mul(seen, l->source.suns[i].power));
   }
   return sum;
 }
 
 // ---- What the rasteriser does, in C ----
 
-// The report's split sum, that of ggx, and ggx with lobes that lean.
-typedef enum method { REPORT, SPLIT, LEAN, METHODS } method;
+// Ways to do without the integral.
+typedef enum method {
+  REPORT,      // the report's split sum
+  SPLIT,       // that of ggx: mirror direction
+  POLYNOMIAL,  // a direction between it and the normal, by roughness alone
+  LEAN,        // the mean direction
+  LENGTH,      // and the roughness whose mean is as long
+  GROUND,      // LEAN, with the true light on the ground
+  METHODS
+} method;
+
+static pbr_model model_of(method how) {
+  return how == REPORT ? PBR_REPORT : PBR_GGX;
+}
+
+static void measure_lengths(gallery *o) {
+  for (int i = 0; i < LENGTHS; i++) {
+    float r = (float)i / (LENGTHS - 1);
+    lean_pair p = lean_integral(1, r);
+    dfg_pair e = dfg_lookup(&o->table[PBR_GGX], 1, r);
+    o->length[i] = (p.r1 + p.n1 + p.r2 + p.n2) / (e.c1 + e.c2);
+  }
+}
+
+// The roughness of a lobe whose mean has that length, at most 1.
+static float roughness_of(const gallery *o, float length) {
+  int i = 0;
+  while (i < LENGTHS - 2 && o->length[i + 1] > length)
+    i++;
+  float a = o->length[i], b = o->length[i + 1];
+  float t = fminf(fmaxf((a - length) / (a - b), 0), 1);
+  return ((float)i + t) / (LENGTHS - 1);
+}
+
+// Where light is looked up, and for which roughness.
+typedef struct reading {
+  vec3 towards;
+  float roughness;
+} reading;
+
+static reading reading_of(const gallery *o, const view_of *v, method how) {
+  float nv = vec3_dot(v->n, v->wo), r = v->b.roughness;
+  vec3 f = v->b.terms.f0;
+  float f0 = (f.x + f.y + f.z) / 3;
+  vec3 mirrored = vec3_sub(vec3_scale(v->n, 2 * nv), v->wo);
+  if (how == REPORT || how == SPLIT) return (reading){mirrored, r};
+  // Source: Lagarde and de Rousiers 2014, section 4.9.3.
+  float share = (1 - r) * (sqrtf(1 - r) + r);
+  if (how == POLYNOMIAL)
+    return (reading){vec3_unit(vec3_lerp(v->n, mirrored, share)), r};
+  reading at = {lean_towards(&o->lobes, v->n, v->wo, f0, r), r};
+  if (how != LENGTH) return at;
+  lean_pair p = lean_lookup(&o->lobes, nv, r);
+  dfg_pair e = dfg_lookup(v->b.table, nv, r);
+  vec3 mean =
+      vec3_mad(vec3_scale(mirrored, f0 * p.r1 + p.r2), f0 * p.n1 + p.n2, v->n);
+  at.roughness = roughness_of(o, vec3_length(mean) / (f0 * e.c1 + e.c2));
+  return at;
+}
+
+// The ground by the split sum.
+static vec3 split_ground(const view_of *v, const ibl *sums, method how) {
+  const rough_terms *s = &v->b.terms;
+  float nv = vec3_dot(v->n, v->wo), r = v->b.roughness, m = 1 - nv;
+  dfg_pair p = dfg_lookup(v->b.table, nv, r);
+  vec3 rest = vec3_all(1 - DIELECTRIC_F0 * p.c1 - p.c2);
+  vec3 top = vec3_max(vec3_all(1 - r), s->f0);
+  if (how == REPORT)
+    rest = vec3_sub(vec3_all(1), vec3_lerp(s->f0, top, m * m * m * m * m));
+  return vec3_scale(vec3_mul(vec3_mul(s->kd, rest), ibl_irradiance(sums, v->n)),
+                    1 / PI);
+}
 
 static vec3 approximate(const gallery *o, const view_of *v, const daylight *l,
                         method how) {
-  const ibl *sums = &l->ibl[how == REPORT ? PBR_REPORT : PBR_GGX];
-  const rough_terms *s = &v->b.terms;
-  float nv = vec3_dot(v->n, v->wo), r = v->b.roughness;
-  float f0 = (s->f0.x + s->f0.y + s->f0.z) / 3;
-  dfg_pair p = dfg_lookup(v->b.table, nv, r);
-  vec3 d = vec3_sub(vec3_scale(v->n, 2 * nv), v->wo);
-  if (how == LEAN) d = lean_towards(&o->lobes, v->n, v->wo, f0, r);
-  vec3 coat = vec3_add(vec3_scale(s->f0, p.c1), vec3_all(p.c2));
-  vec3 rest = vec3_all(1 - DIELECTRIC_F0 * p.c1 - p.c2);
-  float m = 1 - nv, m5 = m * m * m * m * m;
-  vec3 top = vec3_max(vec3_all(1 - r), s->f0);
-  if (how == REPORT) rest = vec3_sub(vec3_all(1), vec3_lerp(s->f0, top, m5));
-  vec3 ground = vec3_scale(vec3_mul(s->kd, rest), 1 / PI);
-  return vec3_add(vec3_mul(ground, ibl_irradiance(sums, v->n)),
-                  vec3_mul(coat, ibl_radiance(sums, d, r)));
+  const ibl *sums = &l->ibl[model_of(how)];
+  dfg_pair p = dfg_lookup(v->b.table, vec3_dot(v->n, v->wo), v->b.roughness);
+  reading at = reading_of(o, v, how);
+  vec3 coat = vec3_add(vec3_scale(v->b.terms.f0, p.c1), vec3_all(p.c2));
+  vec3 ground = how == GROUND ? true_ground(v, l) : split_ground(v, sums, how);
+  return vec3_add(ground,
+                  vec3_mul(coat, ibl_radiance(sums, at.towards, at.roughness)));
 }
 
 // ---- The table of errors ----
 
-enum { NORMALS = 1597 };
+enum { NORMALS = 987 };
 
 // One row of the table: a set of formulas, metallic, a roughness.
 typedef struct row {
@@ -243,7 +323,7 @@ static void row_normal(void *context, size_t i, int worker) {
   (void)worker;
   row *w = context;
   float z = ((float)i + 0.5f) / NORMALS, s = sqrtf(1 - z * z);
-  vec2 c = num_circle((float)(i * 987 % 1597) / 1597);
+  vec2 c = num_circle((float)(i * 610 % 987) / 987);
   const vec3 color = {0.8f, 0.6f, 0.3f};
   for (int model = 0; model < 2; model++) {
     view_of v = {
@@ -255,7 +335,7 @@ static void row_normal(void *context, size_t i, int worker) {
     vec3 t = truth(&v, w->l);
     w->all[i][model] = square(t);
     for (int how = 0; how < METHODS; how++)
-      if ((how == REPORT) == (model == PBR_REPORT)) {
+      if (model_of((method)how) == (pbr_model)model) {
         vec3 got = approximate(w->o, &v, w->l, (method)how);
         w->off[i][how] = square(vec3_sub(got, t));
       }
@@ -281,15 +361,16 @@ static errors errors_under(gallery *o, const daylight *l, float metallic) {
         all[model] += w->all[i][model];
     }
     for (int how = 0; how < METHODS; how++)
-      e.of[how][k] = sqrt(off[how] / all[how == REPORT ? PBR_REPORT : PBR_GGX]);
+      e.of[how][k] = sqrt(off[how] / all[model_of((method)how)]);
   }
   return e;
 }
 
 static void print_errors(const char *name, const errors *e) {
-  static const char *const names[METHODS] = {"report", "split", "lean"};
+  static const char *const names[METHODS] = {"report", "split",  "polynomial",
+                                             "lean",   "length", "ground"};
   for (int how = 0; how < METHODS; how++) {
-    printf("%-14s %-7s", name, names[how]);
+    printf("%-14s %-10s", name, names[how]);
     for (int k = 0; k < STEPS; k++)
       printf(" %.3f", e->of[how][k]);
     printf("\n");
@@ -316,8 +397,9 @@ static void line(image im, vec2 a, vec2 b, int size, vec3 color) {
   }
 }
 
-static const vec3 COLORS[METHODS] = {
-    {0.65f, 0.65f, 0.65f}, {0.75f, 0.08f, 0.05f}, {0.02f, 0.3f, 0.08f}};
+static const vec3 COLORS[METHODS] = {[REPORT] = {0.65f, 0.65f, 0.65f},
+                                     [SPLIT] = {0.75f, 0.08f, 0.05f},
+                                     [LEAN] = {0.02f, 0.3f, 0.08f}};
 
 static image paper(gallery *o, int width, int height) {
   image im = image_new(&o->mem, width, height);
@@ -338,7 +420,9 @@ static image plot(gallery *o, const errors *e) {
     float x = x0 + w * (float)i / 4;
     line(im, (vec2){x, y0}, (vec2){x, y0 + h}, 0, vec3_all(0.7f));
   }
-  for (int how = 0; how < METHODS; how++) {
+  const method drawn[3] = {REPORT, SPLIT, LEAN};
+  for (int i = 0; i < 3; i++) {
+    method how = drawn[i];
     vec2 last = {0, 0};
     for (int k = 0; k < STEPS; k++) {
       float decades = -num_log2((float)fmax(e->of[how][k], 1e-3)) * 0.30103f;
@@ -353,18 +437,20 @@ static image plot(gallery *o, const errors *e) {
 
 static void draw_errors(gallery *o) {
   image all = paper(o, 480, 360);
-  printf("rms error at roughness ");
+  printf("rms error at roughness   ");
   for (int k = 0; k < STEPS; k++)
     printf(" %.2f", (double)ROUGH[k]);
   printf("\n");
-  static const char *const names[4] = {"gradient, 0", "gradient, 1",
-                                       "sky + sun, 0", "sky + sun, 1"};
-  daylight *l[2] = {daylight_new(o, map_of(o, gradient, 0), 2),
-                    daylight_new(o, map_of(o, blue, 1.6e5f), 2)};
-  for (int i = 0; i < 4; i++) {
+  static const char *const names[6] = {"gradient, 0",  "gradient, 1",
+                                       "sky + sun, 0", "sky + sun, 1",
+                                       "built-in, 0",  "built-in, 1"};
+  daylight *l[3] = {daylight_new(o, map_of(o, gradient, 0), 2),
+                    daylight_new(o, map_of(o, blue, 1.6e5f), 2),
+                    daylight_new(o, (env){.kind = ENV_SKY, .scale = 1}, 2)};
+  for (int i = 0; i < 6; i++) {
     errors e = errors_under(o, l[i / 2], (float)(i % 2));
     print_errors(names[i], &e);
-    paste(all, i % 2 * 242, i / 2 * 182, plot(o, &e));
+    if (i < 4) paste(all, i % 2 * 242, i / 2 * 182, plot(o, &e));
   }
   hang(o, "errors", all, 1);
 }
@@ -638,6 +724,7 @@ int main(int argc, char **argv) {
   dfg_build(&o.table[PBR_GGX], PBR_GGX, &o.mem, o.threads);
   dfg_build(&o.table[PBR_REPORT], PBR_REPORT, &o.mem, o.threads);
   lean_build(&o.lobes, &o.mem, o.threads);
+  measure_lengths(&o);
   if (!gl_open(&o.g, GL_BACKEND_AUTO, &o.mem, &err)) give_up(&err, 5);
   for (int model = 0; model < 2; model++)
     o.rough[model] = raster_rough_new(o.g, &o.table[model], &o.mem);
