@@ -60,7 +60,7 @@ static const float ROUGH[STEPS] = {0.1f, 0.2f, 0.35f, 0.5f, 0.75f, 1};
 // reads: the same light, suns apart.
 typedef struct daylight {
   env env, rest;
-  ibl ibl[2];
+  ibl ibl[2], calm;  // calm: of rest, where there are suns
   ibl_source source;
 } daylight;
 
@@ -69,10 +69,14 @@ static daylight *daylight_new(gallery *o, env e, int models) {
   l->env = e;
   ibl_source_make(&l->source, &l->env, &o->mem, o->threads);
   l->rest = (env){.kind = ENV_MAP, .map = l->source.map, .scale = 1};
+  ibl_need need = {.diffuse = true, .all = true};
   for (int model = 0; model < models; model++) {
-    ibl_need need = {.model = (pbr_model)model, .diffuse = true, .all = true};
+    need.model = (pbr_model)model;
     ibl_make(&l->ibl[model], &l->env, &need, &o->mem, o->threads);
   }
+  need.model = PBR_GGX;
+  if (l->source.sun_count > 0)
+    ibl_make(&l->calm, &l->rest, &need, &o->mem, o->threads);
   return l;
 }
 
@@ -189,9 +193,24 @@ static vec3 frame_in(const frame *f, vec3 d) {
   return (vec3){vec3_dot(d, f->t), vec3_dot(d, f->b), vec3_dot(d, f->n)};
 }
 
-static vec3 true_ground(const view_of *v, const daylight *l) {
+// The light of the suns that the coat sends to the viewer.
+static vec3 sun_coat(const view_of *v, const daylight *l) {
   frame f = frame_of(v->n, v->wo);
-  vec3 sum = truth_ground(v, &f, &l->rest);
+  vec3 sum = {0, 0, 0};
+  for (int i = 0; i < l->source.sun_count; i++) {
+    vec3 wi = frame_in(&f, l->source.suns[i].direction);
+    if (!(wi.z > 0)) continue;
+    half_angles a = half_angles_of((vec3){0, 0, 1}, f.wo, wi);
+    vec3 seen = vec3_scale(rough_specular(&v->b.terms, a), wi.z);
+    sum = vec3_add(sum, vec3_mul(seen, l->source.suns[i].power));
+  }
+  return sum;
+}
+
+// That which the ground does.
+static vec3 sun_ground(const view_of *v, const daylight *l) {
+  frame f = frame_of(v->n, v->wo);
+  vec3 sum = {0, 0, 0};
   for (int i = 0; i < l->source.sun_count; i++) {
     vec3 wi = frame_in(&f, l->source.suns[i].direction);
     if (!(wi.z > 0)) continue;
@@ -202,18 +221,16 @@ static vec3 true_ground(const view_of *v, const daylight *l) {
   return sum;
 }
 
+static vec3 true_ground(const view_of *v, const daylight *l) {
+  frame f = frame_of(v->n, v->wo);
+  return vec3_add(truth_ground(v, &f, &l->rest), sun_ground(v, l));
+}
+
 // The light that an unobstructed surface sends to the viewer.
 static vec3 truth(const view_of *v, const daylight *l) {
   frame f = frame_of(v->n, v->wo);
-  vec3 sum = vec3_add(truth_coat(v, &f, &l->rest), true_ground(v, l));
-  for (int i = 0; i < l->source.sun_count; i++) {
-    vec3 wi = frame_in(&f, l->source.suns[i].direction);
-    if (!(wi.z > 0)) continue;
-    half_angles a = half_angles_of((vec3){0, 0, 1}, f.wo, wi);
-    vec3 seen = vec3_scale(rough_specular(&v->b.terms, a), wi.z);
-    sum = vec3_add(sum, vec3_mul(seen, l->source.suns[i].power));
-  }
-  return sum;
+  vec3 coat = vec3_add(truth_coat(v, &f, &l->rest), sun_coat(v, l));
+  return vec3_add(coat, true_ground(v, l));
 }
 
 // ---- What the rasteriser does, in C ----
@@ -226,6 +243,7 @@ typedef enum method {
   LEAN,        // the mean direction
   LENGTH,      // and the roughness whose mean is as long
   GROUND,      // LEAN, with the true light on the ground
+  LAMP,        // LEAN without the suns, and these as lamps
   METHODS
 } method;
 
@@ -293,13 +311,16 @@ static vec3 split_ground(const view_of *v, const ibl *sums, method how) {
 
 static vec3 approximate(const gallery *o, const view_of *v, const daylight *l,
                         method how) {
-  const ibl *sums = &l->ibl[model_of(how)];
+  bool lamps = how == LAMP && l->source.sun_count > 0;
+  const ibl *sums = lamps ? &l->calm : &l->ibl[model_of(how)];
   dfg_pair p = dfg_lookup(v->b.table, vec3_dot(v->n, v->wo), v->b.roughness);
   reading at = reading_of(o, v, how);
   vec3 coat = vec3_add(vec3_scale(v->b.terms.f0, p.c1), vec3_all(p.c2));
+  coat = vec3_mul(coat, ibl_radiance(sums, at.towards, at.roughness));
   vec3 ground = how == GROUND ? true_ground(v, l) : split_ground(v, sums, how);
-  return vec3_add(ground,
-                  vec3_mul(coat, ibl_radiance(sums, at.towards, at.roughness)));
+  vec3 sum = vec3_add(ground, coat);
+  if (!lamps) return sum;
+  return vec3_add(sum, vec3_add(sun_coat(v, l), sun_ground(v, l)));
 }
 
 // ---- The table of errors ----
@@ -367,8 +388,8 @@ static errors errors_under(gallery *o, const daylight *l, float metallic) {
 }
 
 static void print_errors(const char *name, const errors *e) {
-  static const char *const names[METHODS] = {"report", "split",  "polynomial",
-                                             "lean",   "length", "ground"};
+  static const char *const names[METHODS] = {
+      "report", "split", "polynomial", "lean", "length", "ground", "lamp"};
   for (int how = 0; how < METHODS; how++) {
     printf("%-14s %-10s", name, names[how]);
     for (int k = 0; k < STEPS; k++)
