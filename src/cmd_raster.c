@@ -65,7 +65,8 @@ static void ready_rough(raster_job *job, const shot *s) {
   double start = clock_seconds();
   pbr_model model = job->settings.model == RASTER_REPORT ? PBR_REPORT : PBR_GGX;
   if (job->table == NULL)
-    job->table = matter_table(&s->scene, model, s->mem, s->threads);
+    job->table = (job->any_roughness ? matter_table : matter_table_as_is)(
+        &s->scene, model, s->mem, s->threads);
   if (job->table == NULL) return;
   arena scratch = {0};
   job->rough = raster_rough_new(job->g, job->table, &scratch);

@@ -167,8 +167,8 @@ static void choose_settings(render_job *j) {
   j->world = (path_world){.scene = &sh->scene,
                           .lights = v[OPT_LIGHTS].words == 0,
                           .max_depth = (int)v[OPT_MAX_DEPTH].whole[0]};
-  j->world.dfg = matter_table(&sh->scene, (pbr_model)v[OPT_PBR_MODEL].words,
-                              sh->mem, sh->threads);
+  j->world.dfg = matter_table_as_is(
+      &sh->scene, (pbr_model)v[OPT_PBR_MODEL].words, sh->mem, sh->threads);
 }
 
 // The most memory that the process has had, in bytes.

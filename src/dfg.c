@@ -195,12 +195,14 @@ static dfg_pair row_mean(const dfg_pair *row) {
 typedef struct dfg_job {
   dfg *out;
   dfg_rules rules;
+  bool wanted[DFG_ROWS];
 } dfg_job;
 
 static void fill_row(void *context, size_t item, int worker) {
   (void)worker;
   const dfg_job *job = context;
   dfg *d = job->out;
+  if (!job->wanted[item]) return;
   dfg_pair *row = d->table + item * DFG_COLUMNS;
   float y = (float)item / (DFG_ROWS - 1);
   for (int i = 0; i < DFG_COLUMNS; i++) {
@@ -210,12 +212,20 @@ static void fill_row(void *context, size_t item, int worker) {
   d->mean[item] = row_mean(row);
 }
 
+static void fill_rows(dfg_job *job, pbr_model model, arena *mem,
+                      pool *threads) {
+  job->rules = dfg_rules_new();
+  job->out->model = model;
+  job->out->table = ARENA_NEW(mem, dfg_pair, (size_t)DFG_ROWS * DFG_COLUMNS);
+  job->out->mean = ARENA_NEW(mem, dfg_pair, (size_t)DFG_ROWS);
+  pool_run(threads, DFG_ROWS, fill_row, job);
+}
+
 void dfg_build(dfg *out, pbr_model model, arena *mem, pool *threads) {
-  out->model = model;
-  out->table = ARENA_NEW(mem, dfg_pair, (size_t)DFG_ROWS * DFG_COLUMNS);
-  out->mean = ARENA_NEW(mem, dfg_pair, (size_t)DFG_ROWS);
-  dfg_job job = {out, dfg_rules_new()};
-  pool_run(threads, DFG_ROWS, fill_row, &job);
+  dfg_job job = {.out = out};
+  for (int y = 0; y < DFG_ROWS; y++)
+    job.wanted[y] = true;
+  fill_rows(&job, model, mem, threads);
 }
 
 // (1 - t) a + t b.
@@ -229,6 +239,22 @@ static int dfg_cell(float x, int n, float *t) {
   int i = (int)at < n - 2 ? (int)at : n - 2;
   *t = at - (float)i;
   return i;
+}
+
+// A graphics card knows a place to 1/256 of a cell: so near to a row it may
+// read the one beyond.
+#define DFG_SLACK 0.01f
+
+void dfg_build_for(dfg *out, dfg_need need, arena *mem, pool *threads) {
+  dfg_job job = {.out = out};
+  for (size_t i = 0; i < need.count; i++) {
+    float t;
+    int y = dfg_cell(sqrtf(fmaxf(need.roughness[i], 0)), DFG_ROWS, &t);
+    job.wanted[y] = job.wanted[y + 1] = true;
+    if (t < DFG_SLACK && y > 0) job.wanted[y - 1] = true;
+    if (t > 1 - DFG_SLACK && y + 2 < DFG_ROWS) job.wanted[y + 2] = true;
+  }
+  fill_rows(&job, need.model, mem, threads);
 }
 
 dfg_pair dfg_lookup(const dfg *d, float nv, float roughness) {

@@ -26,12 +26,22 @@ typedef struct dfg {
   dfg_pair *mean;   // DFG_ROWS: means over the hemisphere by the cosine
 } dfg;
 
+// Who will look up what.
+typedef struct dfg_need {
+  pbr_model model;
+  const float *roughness;
+  size_t count;
+} dfg_need;
+
 // The integral itself, to 1e-5.  Both arguments in [0, 1]; roughness 0 is a
 // mirror.
 dfg_pair dfg_integral(pbr_model model, float nv, float roughness);
 
 // Fill the table: a few tenths of a second.
 void dfg_build(dfg *out, pbr_model model, arena *mem, pool *threads);
+
+// The same with no rows but those that lookups of these roughness values read.
+void dfg_build_for(dfg *out, dfg_need need, arena *mem, pool *threads);
 
 // Bilinear between the nodes.  Arguments outside of [0, 1] read as the nearest
 // end.  Within 1e-3 of the integral for nv >= 1e-3 and

@@ -57,6 +57,28 @@ const dfg *matter_table(const scene *s, pbr_model model, arena *mem,
   return NULL;
 }
 
+const dfg *matter_table_as_is(const scene *s, pbr_model model, arena *mem,
+                              pool *threads) {
+  arena scratch = {0};
+  float *list = ARENA_NEW(&scratch, float, s->material_count);
+  dfg_need need = {model, list, 0};
+  bool textured = false;
+  for (size_t i = 0; i < s->material_count; i++) {
+    const material *m = &s->materials[i];
+    if (m->kind != MATERIAL_METAL_ROUGH) continue;
+    list[need.count++] = m->roughness;
+    textured |= m->map_pr.image != NULL;
+  }
+  dfg *table = NULL;
+  if (need.count > 0) table = ARENA_NEW(mem, dfg, 1);
+  if (textured)
+    dfg_build(table, model, mem, threads);
+  else if (need.count > 0)
+    dfg_build_for(table, need, mem, threads);
+  arena_free(&scratch);
+  return table;
+}
+
 static matter whole(bsdf b) {
   return (matter){b, vec3_all(1)};
 }

@@ -20,6 +20,11 @@ typedef struct matter {
 const dfg *matter_table(const scene *s, pbr_model model, arena *mem,
                         pool *threads);
 
+// The same for materials that stay as they are: no more of it than their
+// roughness asks for.
+const dfg *matter_table_as_is(const scene *s, pbr_model model, arena *mem,
+                              pool *threads);
+
 // Choose by u for a viewer at cosine cos_o to the shading normal.  glass.eta
 // is that of a viewer outside.
 matter matter_choose(const dfg *table, const surface *s, float cos_o, float u);

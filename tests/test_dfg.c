@@ -104,11 +104,36 @@ static void ends_of_the_table(void **state) {
   arena_free(&mem);
 }
 
+// A table made for some roughness values has the same entries there.
+static void rows_as_needed(void **state) {
+  (void)state;
+  arena mem = {0};
+  dfg all, some;
+  const float roughness[] = {0, 0.1f, 0.25f, 0.5f, 1, 0.333f};
+  dfg_build(&all, PBR_GGX, &mem, NULL);
+  dfg_build_for(&some, (dfg_need){PBR_GGX, roughness, 6}, &mem, NULL);
+  for (int i = 0; i < 6; i++)
+    for (int k = 0; k <= 10; k++) {
+      dfg_pair a = dfg_lookup(&all, 0.1f * (float)k, roughness[i]);
+      dfg_pair b = dfg_lookup(&some, 0.1f * (float)k, roughness[i]);
+      dfg_pair c = dfg_lookup_mean(&all, roughness[i]);
+      dfg_pair d = dfg_lookup_mean(&some, roughness[i]);
+      assert_true(a.c1 == b.c1 && a.c2 == b.c2);
+      assert_true(c.c1 == d.c1 && c.c2 == d.c2);
+    }
+  int empty = 0;
+  for (int y = 0; y < DFG_ROWS; y++)
+    empty += some.mean[y].c1 == 0;
+  assert_true(empty > DFG_ROWS / 2);
+  arena_free(&mem);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(integral_is_that_of_half_vectors),
       cmocka_unit_test(lookups_are_the_integral),
       cmocka_unit_test(ends_of_the_table),
+      cmocka_unit_test(rows_as_needed),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
