@@ -134,7 +134,7 @@ void ibl_make(ibl *out, const env *e, const ibl_need *need, arena *mem,
   if (cached) key = ibl_cache_key_of(&set);
   out->from_cache = cached && ibl_cache_load(&set, key);
   if (!out->from_cache) fill_levels(out, threads);
-  if (cached && !out->from_cache) ibl_cache_save(&set, key);
+  if (cached && !out->from_cache) ibl_cache_save(&set, key, IBL_CACHE_BYTES);
   out->seconds = clock_seconds() - start;
 }
 

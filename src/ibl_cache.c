@@ -4,9 +4,12 @@
 
 #include "file.h"
 
+#include <dirent.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 // Another number when the sums or the format change: old files are then
 // ignored.
@@ -116,12 +119,56 @@ bool ibl_cache_load(const ibl_cache_set *s, ibl_cache_key key) {
   const char *path = ibl_cache_path(key, &mem);
   FILE *f = path == NULL ? NULL : file_open(path, &err);
   bool ok = f != NULL && read_levels(s, key, f);
+  if (ok) (void)utimensat(AT_FDCWD, path, NULL, 0);  // used just now
   if (f != NULL) fclose(f);
   arena_free(&mem);
   return ok;
 }
 
-void ibl_cache_save(const ibl_cache_set *s, ibl_cache_key key) {
+// Of the files of the folder: what they take together, and which was not used
+// for longest.
+typedef struct cache_survey {
+  uint64_t bytes;
+  char oldest[64];
+  struct timespec used;
+} cache_survey;
+
+static bool used_before(struct timespec a, struct timespec b) {
+  return a.tv_sec != b.tv_sec ? a.tv_sec < b.tv_sec : a.tv_nsec < b.tv_nsec;
+}
+
+static cache_survey survey(DIR *folder) {
+  cache_survey s = {.bytes = 0};
+  rewinddir(folder);
+  for (struct dirent *d; (d = readdir(folder)) != NULL;) {
+    struct stat st;
+    if (strncmp(d->d_name, "ibl-", 4) != 0) continue;
+    if (strlen(d->d_name) >= sizeof s.oldest) continue;
+    if (fstatat(dirfd(folder), d->d_name, &st, AT_SYMLINK_NOFOLLOW) != 0)
+      continue;
+    s.bytes += (uint64_t)st.st_size;
+    if (s.oldest[0] != '\0' && !used_before(st.st_mtim, s.used)) continue;
+    strcpy(s.oldest, d->d_name);
+    s.used = st.st_mtim;
+  }
+  return s;
+}
+
+// Another process may remove the same files: then fewer are left than had to
+// be, which does no harm.
+static void prune(uint64_t most, arena *mem) {
+  const char *path = cache_folder(mem);
+  DIR *folder = path == NULL ? NULL : opendir(path);
+  if (folder == NULL) return;
+  cache_survey s = survey(folder);
+  while (s.bytes > most && s.oldest[0] != '\0') {
+    if (unlinkat(dirfd(folder), s.oldest, 0) != 0) break;
+    s = survey(folder);
+  }
+  closedir(folder);
+}
+
+void ibl_cache_save(const ibl_cache_set *s, ibl_cache_key key, uint64_t most) {
   arena mem = {0};
   error err;
   file_writer w;
@@ -133,7 +180,7 @@ void ibl_cache_save(const ibl_cache_set *s, ibl_cache_key key) {
     fwrite(&head, sizeof head, 1, w.stream);
     for (int i = 0; i < s->count; i++)
       fwrite(s->levels[i].texels, 1, level_bytes(&s->levels[i]), w.stream);
-    (void)file_commit(&w, &err);
+    if (file_commit(&w, &err)) prune(most, &mem);
   }
   arena_free(&mem);
 }

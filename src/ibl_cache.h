@@ -31,9 +31,14 @@ ibl_cache_key ibl_cache_key_of(const ibl_cache_set *s);
 // one that is not whole: texels may then hold anything.
 bool ibl_cache_load(const ibl_cache_set *s, ibl_cache_key key);
 
-// Write the texels.  Whoever reads meanwhile finds the whole file or none;
-// failing is no error.
-void ibl_cache_save(const ibl_cache_set *s, ibl_cache_key key);
+// What all files of the cache may take together, in bytes: twenty environments
+// with all levels, or a hundred with a few.
+#define IBL_CACHE_BYTES (UINT64_C(256) << 20)
+
+// Write the texels, and remove the files that were not used for longest until
+// all take at most `most` bytes.  Whoever reads meanwhile finds the whole file
+// or none; failing is no error.
+void ibl_cache_save(const ibl_cache_set *s, ibl_cache_key key, uint64_t most);
 
 // The file of a key in mem, or NULL where the user has no place for caches.
 char *ibl_cache_path(ibl_cache_key key, arena *mem);

@@ -80,7 +80,8 @@ const command command_table[] = {
      "With --eval, answers each line 'irradiance X Y Z', 'radiance X Y Z "
      "ROUGHNESS' or 'dfg NOV ROUGHNESS' of a file by a line of numbers, as a "
      "render would see them.  What was prepared is kept in "
-     "XDG_CACHE_HOME/facet, or ~/.cache/facet."},
+     "XDG_CACHE_HOME/facet, or ~/.cache/facet: at most 256 MiB, of which what "
+     "was not used for longest goes first."},
     {"bench ibl", CMD_BENCH_IBL, "ENV", 1, 1,
      "compare ways to sum the light of an environment",
      "For irradiance and for radiance at some roughness values: microseconds "
