@@ -13,13 +13,28 @@ typedef struct collapse_item {
   int depth;
 } collapse_item;
 
+// A part of the tree, made by one thread: its root, where its other nodes and
+// its triangles go next, and the deepest node so far.
+typedef struct collapse_part {
+  collapse_item root;
+  uint32_t next_node, next_triangle;
+  int depth;
+} collapse_part;
+
+// Items that wait: each level of the tree leaves at most WIDE - 1.
+enum { ITEMS = (WIDE - 1) * BVH_MAX_DEPTH + 1 };
+
+// Whatever holds more than 1 / PARTS of the triangles is above the parts.
+enum { PARTS = 64, ABOVE = PARTS * BVH_MAX_DEPTH };
+
 // What collapsing has at hand.
 typedef struct collapse {
   const bvh *b;
   const wide_cost *costs;
   wide_tree *out;
-  collapse_item *items;
-  uint32_t item_count;
+  collapse_item *above;  // nodes above the parts
+  collapse_part *parts;
+  uint32_t above_count, part_count;
 } collapse;
 
 // The plane that byte q stands for.
@@ -51,8 +66,8 @@ static void quantise_axis(wide_node *w, int k, uint32_t i, float lo, float hi) {
   float base = w->base[k], scale = w->scale[k];
   double a = 0, b = 0;
   if (scale > 0) {
-    a = floor(((double)lo - (double)base) / (double)scale);
-    b = ceil(((double)hi - (double)base) / (double)scale);
+    a = ((double)lo - (double)base) / (double)scale;
+    b = ((double)hi - (double)base) / (double)scale;
   }
   int q = a < 0 ? 0 : a > 255 ? 255 : (int)a;
   while (q > 0 && plane_of(base, scale, q) > lo)
@@ -64,8 +79,8 @@ static void quantise_axis(wide_node *w, int k, uint32_t i, float lo, float hi) {
   w->plane[k][1][i] = (uint8_t)q;
 }
 
-// Copy the triangles below a binary node to the end and return its reference.
-static uint32_t write_leaf(collapse *c, uint32_t from) {
+// Copy the triangles below a binary node to the tree and return their child.
+static uint32_t write_leaf(const collapse *c, collapse_part *p, uint32_t from) {
   uint32_t list[WIDE_LEAF], n = 0, stack[WIDE_LEAF + 1], top = 0;
   stack[top++] = from;
   while (top > 0) {
@@ -77,26 +92,27 @@ static uint32_t write_leaf(collapse *c, uint32_t from) {
     for (uint32_t i = 0; i < node->count; i++)
       list[n++] = c->b->order[node->first + i];
   }
-  wide_tree *t = c->out;
-  uint32_t *to = t->triangles + 10 * (size_t)t->triangle_count;
+  uint32_t *to = c->out->triangles + 10 * (size_t)p->next_triangle;
   for (uint32_t i = 0; i < n; i++) {
     const uint32_t *v = c->b->index + 3 * (size_t)list[i];
     for (uint32_t k = 0; k < 3; k++) {
-      const vec3 *p = &c->b->positions[v[k]];
-      memcpy(&to[(3 * k + 0) * n + i], &p->x, sizeof(float));
-      memcpy(&to[(3 * k + 1) * n + i], &p->y, sizeof(float));
-      memcpy(&to[(3 * k + 2) * n + i], &p->z, sizeof(float));
+      const vec3 *corner = &c->b->positions[v[k]];
+      memcpy(&to[(3 * k + 0) * n + i], &corner->x, sizeof(float));
+      memcpy(&to[(3 * k + 1) * n + i], &corner->y, sizeof(float));
+      memcpy(&to[(3 * k + 2) * n + i], &corner->z, sizeof(float));
     }
     to[9 * n + i] = list[i];
   }
-  uint32_t child = WIDE_LEAF_BIT | (n - 1) << 28 | t->triangle_count;
-  t->triangle_count += n;
+  uint32_t child = WIDE_LEAF_BIT | (n - 1) << 28 | p->next_triangle;
+  p->next_triangle += n;
   return child;
 }
 
-// Make the wide node of an item; its inner children become items.
-static void write_node(collapse *c, collapse_item it) {
-  uint32_t child[WIDE];
+// Make the wide node of an item; its inner children follow in items, and their
+// number is returned.
+static uint32_t write_node(const collapse *c, collapse_part *p,
+                           collapse_item it, collapse_item *items) {
+  uint32_t child[WIDE], inner = 0;
   const bvh_node *nodes = c->b->nodes, *from = &nodes[it.from];
   uint32_t n = wide_children(c->b, c->costs, it.from, child);
   wide_node *w = &c->out->nodes[it.to];
@@ -104,19 +120,104 @@ static void write_node(collapse *c, collapse_item it) {
   frame_axis(w, 0, from->lo.x, from->hi.x);
   frame_axis(w, 1, from->lo.y, from->hi.y);
   frame_axis(w, 2, from->lo.z, from->hi.z);
-  if (it.depth > c->out->depth) c->out->depth = it.depth;
+  if (it.depth > p->depth) p->depth = it.depth;
   for (uint32_t i = 0; i < n; i++) {
     const bvh_node *box = &nodes[child[i]];
     quantise_axis(w, 0, i, box->lo.x, box->hi.x);
     quantise_axis(w, 1, i, box->lo.y, box->hi.y);
     quantise_axis(w, 2, i, box->lo.z, box->hi.z);
     if (wide_is_leaf(c->b, c->costs, child[i])) {
-      w->child[i] = write_leaf(c, child[i]);
+      w->child[i] = write_leaf(c, p, child[i]);
       continue;
     }
-    w->child[i] = c->out->node_count++;
-    c->items[c->item_count++] =
-        (collapse_item){child[i], w->child[i], it.depth + 1};
+    w->child[i] = p->next_node++;
+    items[inner++] = (collapse_item){child[i], w->child[i], it.depth + 1};
+  }
+  return inner;
+}
+
+// The inner children of the wide node of an item, in items, and their number.
+static uint32_t inner_children(const collapse *c, uint32_t from,
+                               collapse_item *items) {
+  uint32_t child[WIDE], inner = 0;
+  uint32_t n = wide_children(c->b, c->costs, from, child);
+  for (uint32_t i = 0; i < n; i++)
+    if (!wide_is_leaf(c->b, c->costs, child[i])) items[inner++].from = child[i];
+  return inner;
+}
+
+// How many nodes a part has below its root.
+static void count_part(void *context, size_t item, int worker) {
+  (void)worker;
+  const collapse *c = context;
+  collapse_part *p = &c->parts[item];
+  collapse_item items[ITEMS + WIDE];
+  uint32_t count = 1;
+  items[0] = p->root;
+  p->next_node = 0;
+  while (count > 0) {
+    uint32_t from = items[--count].from;
+    uint32_t inner = inner_children(c, from, items + count);
+    p->next_node += inner;
+    count += inner;
+  }
+}
+
+static void write_part(void *context, size_t item, int worker) {
+  (void)worker;
+  const collapse *c = context;
+  collapse_part *p = &c->parts[item];
+  collapse_item items[ITEMS + WIDE];
+  uint32_t count = 1;
+  items[0] = p->root;
+  while (count > 0) {
+    collapse_item it = items[--count];
+    count += write_node(c, p, it, items + count);
+  }
+}
+
+// Divide the tree: nodes above, level by level, and parts below them.
+static void find_parts(collapse *c, arena *scratch) {
+  uint32_t room = c->b->node_count < ABOVE ? c->b->node_count : ABOVE;
+  uint32_t most = c->costs[0].below / PARTS, done = 0;
+  c->above = ARENA_NEW(scratch, collapse_item, room + WIDE);
+  c->parts = ARENA_NEW(scratch, collapse_part, WIDE * (size_t)room + WIDE);
+  c->above_count = 1;
+  while (done < c->above_count) {
+    collapse_item items[WIDE];
+    uint32_t inner = inner_children(c, c->above[done++].from, items);
+    for (uint32_t i = 0; i < inner; i++) {
+      if (c->costs[items[i].from].below > most)
+        c->above[c->above_count++].from = items[i].from;
+      else
+        c->parts[c->part_count++].root.from = items[i].from;
+    }
+  }
+}
+
+// Write the nodes above the parts; these learn where their nodes and triangles
+// go.  The order of above is that in which find_parts met them.
+static void write_above(collapse *c) {
+  collapse_part top = {.next_node = 1};
+  uint32_t most = c->costs[0].below / PARTS, above = 1, part = 0;
+  for (uint32_t i = 0; i < c->above_count; i++) {
+    collapse_item items[WIDE];
+    uint32_t inner = write_node(c, &top, c->above[i], items);
+    for (uint32_t k = 0; k < inner; k++) {
+      if (c->costs[items[k].from].below > most)
+        c->above[above++] = items[k];
+      else
+        c->parts[part++].root = items[k];
+    }
+  }
+  c->out->depth = top.depth;
+  for (uint32_t i = 0; i < c->part_count; i++) {
+    collapse_part *p = &c->parts[i];
+    uint32_t nodes = p->next_node;
+    p->next_node = top.next_node;
+    p->next_triangle = top.next_triangle;
+    top.next_node += nodes;
+    top.next_triangle += c->costs[p->root.from].below;
   }
 }
 
@@ -132,18 +233,23 @@ void wide_tree_build(wide_tree *out, const bvh *b, arena *mem, pool *threads) {
   if (b->nodes == NULL || b->refs > WIDE_MAX_TRIANGLES) return;
   arena scratch = {0};
   collapse c = {.b = b, .out = out};
-  c.items = ARENA_NEW(&scratch, collapse_item, b->node_count);
   c.costs = wide_costs_of(b, &scratch, threads);
   memcpy(out->lo, &b->nodes[0].lo, sizeof(vec3));
   memcpy(out->hi, &b->nodes[0].hi, sizeof(vec3));
   out->large = slab_large(&(aabb){b->nodes[0].lo, b->nodes[0].hi});
-  out->nodes = aligned_alloc_of(mem, b->node_count / 2 + 1, sizeof(wide_node));
-  out->triangles = aligned_alloc_of(mem, c.costs[0].below + WIDE_LEAF,
+  find_parts(&c, &scratch);
+  pool_run(threads, c.part_count, count_part, &c);
+  out->node_count = c.above_count + c.part_count;
+  for (uint32_t i = 0; i < c.part_count; i++)
+    out->node_count += c.parts[i].next_node;
+  out->triangle_count = c.costs[0].below;
+  out->nodes = aligned_alloc_of(mem, out->node_count, sizeof(wide_node));
+  out->triangles = aligned_alloc_of(mem, out->triangle_count + WIDE_LEAF,
                                     10 * sizeof(uint32_t));
-  out->node_count = 1;
-  c.items[c.item_count++] = (collapse_item){0, 0, 0};
-  while (c.item_count > 0)
-    write_node(&c, c.items[--c.item_count]);
+  write_above(&c);
+  pool_run(threads, c.part_count, write_part, &c);
+  for (uint32_t i = 0; i < c.part_count; i++)
+    if (c.parts[i].depth > out->depth) out->depth = c.parts[i].depth;
   arena_free(&scratch);
   out->seconds = clock_seconds() - start;
 }
