@@ -180,23 +180,42 @@ static double round_left(const adaptive *a) {
   return sum;
 }
 
-// A pass is a part of the round, the same share of what each tile is to get.
+// Set the end of the pass to a share of what each tile is to get: a whole
+// number, of tiles that get the same not always the same.  How many samples
+// that is.
+static double set_pass(adaptive *a, double share) {
+  double sum = 0;
+  for (size_t i = 0; i < a->tile_count; i++) {
+    tile_state *t = &a->tiles[i];
+    for (int k = 0; k < 2; k++) {
+      double golden = 0.61803399 * (double)(2 * i + (size_t)k);
+      double odd = share < 1 ? golden - floor(golden) : 0;
+      double more = floor(share * (double)(t->round[k] - t->taken[k]) + odd);
+      t->pass[k] = t->taken[k] + (uint32_t)more;
+      sum += more * t->pixels;
+    }
+  }
+  return sum;
+}
+
+// The first pass: one sample, so that there is a picture at all.
+static double set_first(adaptive *a) {
+  for (size_t i = 0; i < a->tile_count; i++)
+    a->tiles[i].pass[0] = 1;
+  return all_pixels(a);
+}
+
+// A pass is a part of the round.
 static double adaptive_plan(void *self, const render_budget *b) {
   adaptive *a = self;
   for (size_t i = 0; i < a->tile_count; i++)
     for (int k = 0; k < 2; k++)
       a->tiles[i].taken[k] = a->tiles[i].pass[k];
   if (!(round_left(a) > 0) && !next_round(a, b)) return 0;
-  double share = fmin(b->pass / round_left(a), 1), sum = 0;
-  for (size_t i = 0; i < a->tile_count; i++) {
-    tile_state *t = &a->tiles[i];
-    for (int k = 0; k < 2; k++) {
-      double more = ceil(share * (double)(t->round[k] - t->taken[k]));
-      t->pass[k] = t->taken[k] + (uint32_t)more;
-      sum += more * t->pixels;
-    }
-  }
-  return sum;
+  bool first = !(samples_taken(a) > 0);
+  double share = fmin(b->pass / round_left(a), 1);
+  double samples = first ? set_first(a) : set_pass(a, share);
+  return samples > 0 ? samples : set_pass(a, 1);
 }
 
 static bool adaptive_next(void *self, size_t tile, uint32_t *at,

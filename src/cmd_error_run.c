@@ -15,7 +15,14 @@ const error_method error_methods[] = {
     {"flat", .flags = {"--engine=raster", "--shading=albedo"}},
     {"phong", .flags = {"--engine=raster", "--shading=blinn-phong"}},
     {"pbr", .flags = {"--engine=raster", "--shading=pbr"}},
-    {"naive", .path = true, .flags = {"--engine=path", "--integrator=naive"}},
+    {"naive", .path = true,
+     .flags = {"--engine=path", "--integrator=naive", "--bvh=binary"}},
+    {"mis", .path = true,
+     .flags = {"--engine=path", "--integrator=mis", "--sampler=random",
+               "--bvh=binary"}},
+    {"sobol", .path = true,
+     .flags = {"--engine=path", "--integrator=mis", "--sampler=sobol",
+               "--bvh=binary"}},
     {"adaptive", .path = true, .adaptive = true, .flags = {"--engine=path"}},
 };
 

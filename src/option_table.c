@@ -71,7 +71,9 @@ const command command_table[] = {
      "PLOT.svg.\n"
      "Methods: raster and path as they are; flat (the base colours), phong and "
      "pbr (every material by that one model) in the raster engine; naive, "
-     "chapter 9's paths; adaptive, which renders with --error down to what "
+     "chapter 9's paths, mis, which look for lights with random numbers, and "
+     "sobol, with even ones, all three on the binary tree, where path has the "
+     "wide one; adaptive, which renders with --error down to what "
      "path estimated at each number of samples."},
     {"ibl", CMD_IBL, "ENV", 1, 1, "prepare light from an environment",
      "ENV is an equirectangular picture, R,G,B, or sky.  With -o, writes "
@@ -262,8 +264,8 @@ const option option_table[OPTION_COUNT] = {
     [OPT_RUNS] = {"repeat", 0, CMD_BENCH_ERROR, OPTION_WHOLE, "K", "1", 1, 1000,
                   .help = "pictures a point, each with a seed of its own"},
     [OPT_METHODS] = {"methods", 0, CMD_BENCH_ERROR, OPTION_WORDS,
-                     "raster,path,flat,phong,pbr,naive,adaptive", "raster,path",
-                     .help = "what to compare"},
+                     "raster,path,flat,phong,pbr,naive,mis,sobol,adaptive",
+                     "raster,path", .help = "what to compare"},
     [OPT_REFERENCE] = {"reference", 0, CMD_BENCH_ERROR, OPTION_TEXT, "REF.pfm",
                        .help = "the truth (default: rendered)"},
     [OPT_FRAMES] = {"frames", 0, CMD_BENCH_RASTER, OPTION_WHOLE, "N", "1000", 1,
