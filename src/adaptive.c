@@ -22,8 +22,9 @@ enum { PILOT = 8 };
 // end of the round.
 typedef struct tile_state {
   uint32_t taken[2], pass[2], round[2];
-  double need[2];  // standard deviation of a sample, by the other half
-  double pixels;
+  double need[2];  // for the other half: a sample's standard deviation over
+                   // the root of its rays
+  double pixels, rays;
 } tile_state;
 
 struct adaptive {
@@ -55,7 +56,8 @@ static film_box box_of(const adaptive *a, size_t tile) {
                     y1 < a->set.height ? y1 : a->set.height};
 }
 
-// What each half of a tile says of the spread of a sample, for the other.
+// What each half of a tile says to the other of the spread of a sample, and
+// what that costs.
 static void ask_tile(adaptive *a, size_t tile) {
   tile_state *t = &a->tiles[tile];
   film_box box = box_of(a, tile);
@@ -63,7 +65,9 @@ static void ask_tile(adaptive *a, size_t tile) {
   for (int k = 0; k < 2; k++) {
     const film *other = &a->halves.half[1 - k];
     double of_mean = film_box_error(other, &box) / (3 * t->pixels);
-    t->need[k] = sqrt(of_mean * (double)t->taken[1 - k]);
+    double samples = t->pixels * (double)(t->taken[0] + t->taken[1]);
+    double variance = of_mean * (double)t->taken[1 - k];
+    t->need[k] = sqrt(variance / fmax(t->rays / fmax(samples, 1), 1));
   }
 }
 
@@ -80,9 +84,9 @@ static double all_pixels(const adaptive *a) {
   return (double)a->set.width * (double)a->set.height;
 }
 
-// The number of samples of one half of a tile for a price: the variance of a
-// mean falls by need^2 / n^2 for one sample more, so that n = price * need
-// spends every sample where it buys most.
+// The number of samples of one half of a tile for a price: with a variance of
+// v and c rays, one sample more takes v / n^2 off the error, so that n = price
+// sqrt(v / c) spends every ray where it buys most.
 static uint32_t fair_number(const tile_state *t, int half, double price,
                             double least) {
   double taken = (double)t->taken[half];
@@ -234,6 +238,10 @@ static void adaptive_add(void *self, size_t pixel, uint32_t sample,
   halves_add(&((adaptive *)self)->halves, pixel, sample, color);
 }
 
+static void adaptive_spend(void *self, size_t tile, uint64_t rays) {
+  ((adaptive *)self)->tiles[tile].rays += (double)rays;
+}
+
 static double adaptive_error(void *self) {
   return halves_error(&((adaptive *)self)->halves);
 }
@@ -251,6 +259,7 @@ render_guide adaptive_guide(adaptive *a) {
                         adaptive_plan,
                         adaptive_next,
                         adaptive_add,
+                        adaptive_spend,
                         adaptive_error,
                         adaptive_mean,
                         adaptive_variance};

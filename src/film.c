@@ -59,6 +59,13 @@ image film_variance_image(const film *f, arena *mem) {
   return out;
 }
 
+image film_count_image(const film *f, arena *mem) {
+  image out = image_new(mem, f->width, f->height);
+  for (size_t i = 0; i < pixel_count(f); i++)
+    out.pixels[i] = vec3_all((float)f->count[i]);
+  return out;
+}
+
 // variance / (radiance^2 + 0.01) over a block of pixels that starts at (x, y).
 // Radiance comes from the whole block, because the samples that raise a
 // pixel's variance raise its own mean too, and the quotient would be too low.

@@ -26,6 +26,7 @@ vec3 film_variance(const film *f, size_t i);
 
 image film_image(const film *f, arena *mem);
 image film_variance_image(const film *f, arena *mem);
+image film_count_image(const film *f, arena *mem);
 
 // The estimated relative error of the picture: the square root of relMSE =
 // mean over pixels and channels of variance / (radiance^2 + 0.01).  0 when

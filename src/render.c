@@ -34,7 +34,8 @@ typedef struct worker {
   path_start *starts;
   size_t *pixels;
   vec3 *colors;
-  void *room;  // of the integrator
+  void *room;      // of the integrator
+  uint64_t spent;  // rays of paths in this tile and pass
   char apart[64];
 } worker;
 
@@ -104,9 +105,11 @@ static void start_sample(const job *j, int x, int y, uint32_t sample,
 static void end_samples(job *j, worker *w) {
   tally *t = &w->tally;
   bool firsts = wants_first(j->set);
+  uint64_t rays = t->paths.rays;
   if (j->set->shading == RENDER_RADIANCE)
     j->by.radiance(j->by.self, w->starts, w->count, w->colors, &t->paths,
                    w->room);
+  w->spent += t->paths.rays - rays;
   for (size_t k = 0; k < w->count; k++) {
     const path_start *s = &w->starts[k];
     first_hit first = {0};
@@ -192,8 +195,14 @@ static void render_tiles(void *context, size_t item, int number) {
   worker *w = &j->team[number];
   int begin = (int)item * j->run, end = begin + j->run;
   if (end > j->tile_count) end = j->tile_count;
-  for (int tile = begin; tile < end; tile++)
+  const render_guide *g = j->set->guide;
+  for (int tile = begin; tile < end; tile++) {
     render_tile(j, (size_t)tile, w);
+    if (g == NULL || g->spend == NULL) continue;
+    end_samples(j, w);
+    g->spend(g->self, (size_t)tile, w->spent);
+    w->spent = 0;
+  }
   end_samples(j, w);
   atomic_fetch_add(&j->done, end - begin);
   if (number != 0 || j->set->progress == NULL) return;
@@ -302,14 +311,6 @@ static void sum_tallies(render_result *out, const job *j) {
   out->bad_sample = (int)all.bad_sample;
 }
 
-static image samples_image(const film *f, arena *mem) {
-  image out = image_new(mem, f->width, f->height);
-  size_t n = (size_t)f->width * (size_t)f->height;
-  for (size_t i = 0; i < n; i++)
-    out.pixels[i] = vec3_all((float)f->count[i]);
-  return out;
-}
-
 // A picture of what the guide says of each pixel.
 static image guided_image(const job *j, vec3 (*of)(const void *, size_t),
                           arena *mem) {
@@ -334,7 +335,7 @@ static void make_images(render_result *out, const job *j, arena *mem) {
     out->aov[3] = guided ? guided_image(j, g->variance, mem)
                          : film_variance_image(&j->color, mem);
   if (j->set->aovs & RENDER_AOV_SAMPLES)
-    out->aov[4] = samples_image(&j->color, mem);
+    out->aov[4] = film_count_image(&j->color, mem);
 }
 
 // Give the picture so far to whoever asked for it since the last pass.

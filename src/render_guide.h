@@ -31,6 +31,8 @@ typedef struct render_guide {
   bool (*next)(void *self, size_t tile, uint32_t *at, uint32_t *sample);
   // Told of every sample by the worker that has the tile.
   void (*add)(void *self, size_t pixel, uint32_t sample, vec3 color);
+  // Told after a pass how many rays the tile's paths took.
+  void (*spend)(void *self, size_t tile, uint64_t rays);
   // The picture's relative error so far; 0: not known.
   double (*error)(void *self);
   vec3 (*mean)(const void *self, size_t pixel);
