@@ -192,12 +192,15 @@ const option option_table[OPTION_COUNT] = {
                          "is given without it"},
     [OPT_SPPS] = {"spp", 0, CMD_BENCH_ERROR, OPTION_WHOLES, "N,...",
                   "1,4,16,64", 1, 1 << 19, .help = "samples a pixel, in turn"},
-    [OPT_TIME] = {"time", 0, CMD_RENDER, OPTION_NUMBER, "SECONDS", NULL, 0, 1e9,
-                  true, "stop in time to be done this long after the start"},
+    [OPT_TIME] =
+        {"time", 0, CMD_RENDER, OPTION_NUMBER, "SECONDS", NULL, 0, 1e9, true,
+         "stop in time to be done this long after the start; samples go "
+         "where they help"},
     [OPT_ERROR] = {"error", 0, CMD_RENDER, OPTION_NUMBER, "REL", NULL, 0, 1e9,
                    true,
                    "stop when the estimated relative error of the "
-                   "picture is below this"},
+                   "picture is below this; samples go where they help, and "
+                   "the estimate is within 10 % of the error"},
     [OPT_MAX_DEPTH] = {"max-depth", 0, SHOWS | CMD_VIEW, OPTION_WHOLE, "N", "0",
                        0, 1000000,
                        .help =
