@@ -13,7 +13,8 @@ enum { BLOCK = 4, BLOCK_PIXELS = BLOCK * BLOCK };
 // One channel of a block.
 typedef struct block {
   int count;
-  double mean[BLOCK_PIXELS], square[BLOCK_PIXELS], other[BLOCK_PIXELS];
+  double mean[BLOCK_PIXELS], least[BLOCK_PIXELS];  // of the two
+  double square[BLOCK_PIXELS], other[BLOCK_PIXELS];
 } block;
 
 // Radiance squared at pixel k, as the pixel and its neighbours let expect: the
@@ -37,7 +38,10 @@ static double expected_square(const block *b, int k) {
   double likely = around + trust * (b->mean[k] - around);
   // Half of what the square of an uncertain number exceeds the square of its
   // mean by, because it is to be divided by.
-  return likely * likely + (1 - trust) * spread / 2;
+  double square = likely * likely + (1 - trust) * spread / 2;
+  // A lamp among dark neighbours: both means see it, as no accident would.
+  double sure = fmax(b->least[k] - 2 * sqrt(noise), 0);
+  return fmax(square, sure * sure);
 }
 
 static void add_block(const block *b, two_means_sums *sums) {
@@ -51,6 +55,7 @@ static void add_block(const block *b, two_means_sums *sums) {
 static void put(block *b, const two_means_pixel *p, int channel) {
   double x = p->a[channel], y = p->b[channel];
   b->mean[b->count] = (x + y) / 2;
+  b->least[b->count] = fmin(x, y);
   b->square[b->count] = (x - y) * (x - y) / 4;
   b->other[b->count++] = p->other[channel];
 }
