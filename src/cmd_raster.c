@@ -60,6 +60,19 @@ static bool lobes_lean(const raster_job *job, const shot *s) {
          s->o->value[OPT_IBL].words == 0;
 }
 
+// Where lobes look, for the roughness values that will be asked for.
+static void ready_lean(raster_job *job, const shot *s, arena *scratch) {
+  lean table;
+  ibl_need need =
+      raster_env_need(&s->scene, PBR_GGX, job->any_roughness, scratch);
+  if (need.all)
+    lean_build(&table, scratch, s->threads);
+  else
+    lean_build_for(&table, need.roughness, need.count, scratch, s->threads);
+  job->lean = raster_lean_new(job->g, &table, &job->rough);
+  job->settings.metal_rough = raster_lean_piece(&job->lean);
+}
+
 // Metallic-roughness as the path engine has it: the table is the same.
 static void ready_rough(raster_job *job, const shot *s) {
   double start = clock_seconds();
@@ -71,12 +84,7 @@ static void ready_rough(raster_job *job, const shot *s) {
   arena scratch = {0};
   job->rough = raster_rough_new(job->g, job->table, &scratch);
   job->settings.metal_rough = raster_rough_piece(&job->rough);
-  if (lobes_lean(job, s)) {
-    lean table;
-    lean_build(&table, &scratch, s->threads);
-    job->lean = raster_lean_new(job->g, &table, &job->rough);
-    job->settings.metal_rough = raster_lean_piece(&job->lean);
-  }
+  if (lobes_lean(job, s)) ready_lean(job, s, &scratch);
   job->table_seconds += clock_seconds() - start;
   arena_free(&scratch);
 }

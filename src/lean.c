@@ -63,19 +63,34 @@ lean_pair lean_integral(float nv, float roughness) {
                      (float)(s.up[1] - r2 * (double)c)};
 }
 
+// What the threads need to fill rows.
+typedef struct lean_job {
+  lean_pair *table;
+  bool wanted[LEAN_ROWS];
+} lean_job;
+
 static void lean_fill_row(void *context, size_t item, int worker) {
   (void)worker;
-  const lean *l = context;
+  const lean_job *job = context;
+  if (!job->wanted[item]) return;
   float y = (float)item / (LEAN_ROWS - 1);
   for (int i = 0; i < LEAN_COLUMNS; i++) {
     float x = (float)i / (LEAN_COLUMNS - 1);
-    l->table[item * LEAN_COLUMNS + (size_t)i] = lean_integral(x * x, y * y);
+    job->table[item * LEAN_COLUMNS + (size_t)i] = lean_integral(x * x, y * y);
   }
 }
 
-void lean_build(lean *out, arena *mem, pool *threads) {
+static void lean_fill(lean *out, lean_job *job, arena *mem, pool *threads) {
   out->table = ARENA_NEW(mem, lean_pair, (size_t)LEAN_ROWS * LEAN_COLUMNS);
-  pool_run(threads, LEAN_ROWS, lean_fill_row, out);
+  job->table = out->table;
+  pool_run(threads, LEAN_ROWS, lean_fill_row, job);
+}
+
+void lean_build(lean *out, arena *mem, pool *threads) {
+  lean_job job;
+  for (int y = 0; y < LEAN_ROWS; y++)
+    job.wanted[y] = true;
+  lean_fill(out, &job, mem, threads);
 }
 
 // (1 - t) a + t b.
@@ -91,6 +106,22 @@ static int lean_cell(float x, int n, float *t) {
   int i = (int)at < n - 2 ? (int)at : n - 2;
   *t = at - (float)i;
   return i;
+}
+
+// As in dfg.c: so near to a row a graphics card may read the one beyond.
+#define LEAN_SLACK 0.01f
+
+void lean_build_for(lean *out, const float *roughness, int count, arena *mem,
+                    pool *threads) {
+  lean_job job = {.table = NULL};
+  for (int i = 0; i < count; i++) {
+    float t;
+    int y = lean_cell(roughness[i], LEAN_ROWS, &t);
+    job.wanted[y] = job.wanted[y + 1] = true;
+    if (t < LEAN_SLACK && y > 0) job.wanted[y - 1] = true;
+    if (t > 1 - LEAN_SLACK && y + 2 < LEAN_ROWS) job.wanted[y + 2] = true;
+  }
+  lean_fill(out, &job, mem, threads);
 }
 
 lean_pair lean_lookup(const lean *l, float nv, float roughness) {

@@ -33,6 +33,10 @@ lean_pair lean_integral(float nv, float roughness);
 // Fill the table: a twentieth of a second.
 void lean_build(lean *out, arena *mem, pool *threads);
 
+// The same with no rows but those that lookups of these roughness values read.
+void lean_build_for(lean *out, const float *roughness, int count, arena *mem,
+                    pool *threads);
+
 // Bilinear between the nodes; arguments outside of [0, 1] read as the nearest
 // end.
 lean_pair lean_lookup(const lean *l, float nv, float roughness);

@@ -96,6 +96,26 @@ static void ends(void **state) {
   arena_free(&mem);
 }
 
+// A table made for some roughness values has the same entries there.
+static void rows_as_needed(void **state) {
+  (void)state;
+  arena mem = {0};
+  lean all, some;
+  const float roughness[] = {0, 0.1f, 0.25f, 0.333f, 1};
+  lean_build(&all, &mem, NULL);
+  lean_build_for(&some, roughness, 5, &mem, NULL);
+  for (int i = 0; i < 5 * 11; i++) {
+    float nv = 0.1f * (float)(i % 11), r = roughness[i / 11];
+    lean_pair a = lean_lookup(&all, nv, r), b = lean_lookup(&some, nv, r);
+    assert_memory_equal(&a, &b, sizeof a);
+  }
+  int empty = 0;
+  for (int y = 0; y < LEAN_ROWS; y++)
+    empty += some.table[y * LEAN_COLUMNS].r2 == 0;
+  assert_true(empty > LEAN_ROWS / 2);
+  arena_free(&mem);
+}
+
 // What the approximations below read: a sky that grows from black below to
 // white above, and its sums, which are known.
 static double sky(vec3 d) {
@@ -198,6 +218,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(integral_is_that_of_lights),
       cmocka_unit_test(ends),
+      cmocka_unit_test(rows_as_needed),
       cmocka_unit_test(leaning_beats_the_split_sum),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
