@@ -20,18 +20,16 @@ static float mean_of(vec3 c) {
   return c.x / 3 + c.y / 3 + c.z / 3;
 }
 
-static float texel(const light_env *l, int x, int y) {
-  const image *m = &l->map;
-  float v = mean_of(m->pixels[(size_t)y * (size_t)m->width + (size_t)x]);
-  return v > l->floor ? (v - l->floor) * l->unit * l->row_sin[y] : 0;
+static float value_at(const light_env *l, int x, int y) {
+  return l->values[(size_t)y * (size_t)l->width + (size_t)x];
 }
 
 // Row j of cells lies between the texel rows j - 1 and j, column i likewise.
 static cell cell_at(const light_env *l, int i, int j) {
-  int left = i > 0 ? i - 1 : l->map.width - 1;
-  int above = clamped(j - 1, l->map.height), below = clamped(j, l->map.height);
-  return (cell){texel(l, left, above), texel(l, i, above),
-                texel(l, left, below), texel(l, i, below)};
+  int left = i > 0 ? i - 1 : l->width - 1;
+  int above = clamped(j - 1, l->height), below = clamped(j, l->height);
+  return (cell){value_at(l, left, above), value_at(l, i, above),
+                value_at(l, left, below), value_at(l, i, below)};
 }
 
 static float cell_mean(const cell *c) {
@@ -39,7 +37,11 @@ static float cell_mean(const cell *c) {
 }
 
 static float cell_height(const light_env *l, int j) {
-  return j == 0 || j == l->map.height ? 0.5f : 1;
+  return j == 0 || j == l->height ? 0.5f : 1;
+}
+
+static float row_sine(const light_env *l, int row) {
+  return num_circle(((float)row + 0.5f) / (float)l->height * 0.5f).y;
 }
 
 // The built-in sky as a map, unrotated.
@@ -56,22 +58,37 @@ static image sky_map(const env *e, arena *mem) {
   return map;
 }
 
-// The mean over the sphere, and the peak.
-static void measure(light_env *l) {
+// Fills the values with radiance; its mean over the sphere.
+static float fill_values(light_env *l, const image *map, float *peak) {
   double sum = 0, weight = 0;
-  float peak = 0;
-  for (int y = 0; y < l->map.height; y++) {
-    const vec3 *row = l->map.pixels + (size_t)y * (size_t)l->map.width;
-    double of_row = 0;
-    for (int x = 0; x < l->map.width; x++) {
-      of_row += (double)mean_of(row[x]);
-      peak = fmaxf(peak, mean_of(row[x]));
+  float *value = l->values;
+  *peak = 0;
+  for (int y = 0; y < l->height; y++) {
+    double of_row = 0, sine = (double)row_sine(l, y);
+    for (int x = 0; x < l->width; x++, value++) {
+      *value = mean_of(map->pixels[value - l->values]);
+      *peak = fmaxf(*peak, *value);
+      of_row += (double)*value;
     }
-    sum += of_row * (double)l->row_sin[y];
-    weight += (double)l->row_sin[y] * l->map.width;
+    sum += of_row * sine;
+    weight += l->width * sine;
   }
-  l->floor = (float)(sum / weight);
-  l->unit = 1 / (peak - l->floor);
+  return (float)(sum / weight);
+}
+
+// Makes the values what they are; gives the radiance that 1 stands for, 0 where
+// nothing is above the mean.
+static float measure(light_env *l, const image *map, arena *mem) {
+  l->values = ARENA_NEW(mem, float, (size_t)l->width *(size_t)l->height);
+  float peak, mean = fill_values(l, map, &peak), unit = 1 / (peak - mean);
+  if (!(isfinite(unit) && unit > 0)) return 0;
+  float *value = l->values;
+  for (int y = 0; y < l->height; y++) {
+    float scale = unit * row_sine(l, y);
+    for (int x = 0; x < l->width; x++, value++)
+      *value = fmaxf(*value - mean, 0) * scale;
+  }
+  return peak - mean;
 }
 
 // Work of the pool: the columns of one row of cells.
@@ -84,7 +101,7 @@ static void weigh_row(void *context, size_t item, int worker) {
   (void)worker;
   row_job *job = context;
   light_env *l = job->light;
-  int j = (int)item, w = l->map.width;
+  int j = (int)item, w = l->width;
   float *values = job->values + item * (size_t)w;
   for (int i = 0; i < w; i++) {
     cell c = cell_at(l, i, j);
@@ -95,8 +112,8 @@ static void weigh_row(void *context, size_t item, int worker) {
   job->sums[j] = (float)sum * cell_height(l, j);
 }
 
-static void weigh(light_env *l, arena *mem, pool *threads) {
-  size_t rows = (size_t)l->map.height + 1, width = (size_t)l->map.width;
+static void weigh(light_env *l, float unit, arena *mem, pool *threads) {
+  size_t rows = (size_t)l->height + 1, width = (size_t)l->width;
   arena scratch = {0};
   row_job job = {l, ARENA_NEW(&scratch, float, rows *width),
                  ARENA_NEW(&scratch, float, rows)};
@@ -107,8 +124,8 @@ static void weigh(light_env *l, arena *mem, pool *threads) {
   pool_run(threads, rows, weigh_row, &job);
   double sum;
   pick_weigh(&l->rows, job.sums, &sum);
-  double cells = (double)width * (double)l->map.height;
-  double mean = sum / cells / (double)l->unit;  // of value times sine
+  double cells = (double)width * (double)l->height;
+  double mean = sum / cells * (double)unit;  // of radiance times sine
   l->irradiance = (float)(mean * (double)(PI * PI / 2)) * l->env->scale;
   arena_free(&scratch);
 }
@@ -118,13 +135,11 @@ void light_env_build(light_env *out, const env *e, arena *mem, pool *threads) {
   if (e->kind != ENV_SKY && e->kind != ENV_MAP) return;
   if (e->kind == ENV_MAP && e->map.pixels == NULL) return;
   if (!(e->scale > 0)) return;
-  out->map = e->kind == ENV_SKY ? sky_map(e, mem) : e->map;
-  int h = out->map.height;
-  out->row_sin = ARENA_NEW(mem, float, (size_t)h);
-  for (int y = 0; y < h; y++)
-    out->row_sin[y] = num_circle(((float)y + 0.5f) / (float)h * 0.5f).y;
-  measure(out);
-  if (isfinite(out->unit) && out->unit > 0) weigh(out, mem, threads);
+  image map = e->kind == ENV_SKY ? sky_map(e, mem) : e->map;
+  out->width = map.width;
+  out->height = map.height;
+  float unit = measure(out, &map, mem);
+  if (unit > 0) weigh(out, unit, mem, threads);
 }
 
 // Where in [0, 1) a density falls that runs from a to b; not both 0.
@@ -138,7 +153,7 @@ static float cell_pdf(const light_env *l, const cell *c, vec2 at, float share) {
   float top = c->a00 * (1 - at.x) + c->a01 * at.x;
   float low = c->a10 * (1 - at.x) + c->a11 * at.x;
   float value = top * (1 - at.y) + low * at.y, mean = cell_mean(c);
-  float cells = (float)l->map.width * (float)l->map.height;
+  float cells = (float)l->width * (float)l->height;
   return mean > 0 ? share * cells * value / mean : 0;
 }
 
@@ -162,8 +177,8 @@ bool light_env_sample(const light_env *l, float u1, float u2, vec3 *wi,
   at.x = sample_slope(c.a00 * (1 - at.y) + c.a10 * at.y,
                       c.a01 * (1 - at.y) + c.a11 * at.y, u1);
   float top = j > 0 ? (float)j - 0.5f : 0, high = cell_height(l, j);
-  float u = ((float)i - 0.5f + at.x) / (float)l->map.width - l->env->rotate;
-  float v = (top + high * at.y) / (float)l->map.height;
+  float u = ((float)i - 0.5f + at.x) / (float)l->width - l->env->rotate;
+  float v = (top + high * at.y) / (float)l->height;
   *wi = env_direction((vec2){u - floorf(u), v});
   float of_square = cell_pdf(l, &c, at, share_x * share_y / high);
   *pdf = per_steradian(of_square, v);
@@ -174,14 +189,14 @@ float light_env_pdf(const light_env *l, vec3 wi) {
   if (!(l->irradiance > 0) || !vec3_finite(wi)) return 0;
   vec2 uv = env_uv(wi);
   float u = uv.x + l->env->rotate;
-  float x = (u - floorf(u)) * (float)l->map.width + 0.5f;
-  float y = uv.y * (float)l->map.height + 0.5f;
-  int i = (int)x, j = clamped((int)y, l->map.height + 1);
+  float x = (u - floorf(u)) * (float)l->width + 0.5f;
+  float y = uv.y * (float)l->height + 0.5f;
+  int i = (int)x, j = clamped((int)y, l->height + 1);
   vec2 at = {x - (float)i, y - (float)j};
-  if (i >= l->map.width) i = 0;
+  if (i >= l->width) i = 0;
   float high = cell_height(l, j);
   if (j == 0) at.y = 2 * at.y - 1;
-  if (j == l->map.height) at.y = fminf(2 * at.y, 1);
+  if (j == l->height) at.y = fminf(2 * at.y, 1);
   cell c = cell_at(l, i, j);
   float share = pick_share(&l->columns[j], (uint32_t)i) *
                 pick_share(&l->rows, (uint32_t)j) / high;

@@ -13,12 +13,11 @@
 // environment has no table.  Source: Karlik et al. 2019, "MIS Compensation".
 typedef struct light_env {
   const env *env;
-  image map;       // as loaded, or the built-in sky in a few texels
-  float floor;     // the radiance (mean of R, G, B) that is taken off
-  float unit;      // one over the highest value left
-  float *row_sin;  // of the angle to +Y, by row of texels
-  pick rows;       // of cells: height + 1, the first and the last half as high
-  pick *columns;   // width cells of each row
+  int width, height;  // texels of the map, or of the built-in sky as one
+  float *values;      // by texel: what is above the mean, 1 at most, times the
+                      // sine of its angle to +Y
+  pick rows;      // of cells: height + 1, the first and the last half as high
+  pick *columns;  // width cells of each row
   float irradiance;  // what the table stands for, on a plane, roughly; 0: none
 } light_env;
 
