@@ -71,8 +71,8 @@ static float broad_sun(vec3 d) {
   return 0.48f * d.x + 0.6f * d.y - 0.64f * d.z > 0.99905f ? 1000 : 0;
 }
 
-// 0.27 degrees from its middle to its rim, as the real one: of texels of a third
-// of a degree.
+// 0.27 degrees from its middle to its rim, as the real one: of texels of a
+// third of a degree.
 static float small_sun(vec3 d) {
   return 0.48f * d.x + 0.6f * d.y - 0.64f * d.z > 0.9999889f ? 5e4f : 0;
 }
