@@ -6,8 +6,8 @@
 
 #include <stddef.h>
 
-// What one frame costs by pass, in milliseconds: the median of some frames,
-// each finished before the next.
+// What one frame costs by pass, in milliseconds of processors at work: the
+// median of some frames, each finished before the next.
 typedef struct pass_times {
   double shadow;   // to draw all shadow maps again
   double surface;  // the surfaces
@@ -19,7 +19,7 @@ typedef struct pass_times {
 // One line of the table.
 typedef struct bench_line {
   int width, height;
-  double seconds;  // for all frames
+  double seconds, work;  // for all frames: by the clock, and of processors
   pass_times passes;
 } bench_line;
 
@@ -33,52 +33,67 @@ typedef struct bench_raster {
 
 // The frames of the table: none waits for the one before it.
 static bool draw_frames(bench_raster *b, bench_line *line, error *err) {
-  double start = clock_seconds();
+  double start = clock_seconds(), work = clock_work();
   for (long long k = 0; k < b->frames; k++)
     if (!raster_draw_next(b->job.r, &b->shot.view, err)) return false;
   raster_wait(b->job.r);
   line->seconds = clock_seconds() - start;
+  line->work = clock_work() - work;
   return true;
 }
 
-// Draw `repeat` frames and store the median of one of their times.  With
-// `again` the shadow maps are drawn for each frame.
+// Draw `repeat` frames and store the median of their work.  With `again` the
+// shadow maps are drawn for each frame.
 static bool measure(double *ms, bench_raster *b, bool again, error *err) {
   for (size_t k = 0; k < b->repeat; k++) {
     if (again) {
       raster_hide(b->job.r, 0, true);
       raster_hide(b->job.r, 0, false);
     }
+    double start = clock_work();
     if (!raster_draw(b->job.r, &b->shot.view, err)) return false;
-    raster_times t = raster_last_times(b->job.r);
-    b->samples[k] = again ? t.shadow : t.draw;
+    b->samples[k] = clock_work() - start;
   }
   *ms = 1000 * cmd_median(b->samples, b->repeat);
   return true;
+}
+
+// The median work of `repeat` times some call that is not a frame.
+static double measure_call(bench_raster *b, void (*call)(raster *r)) {
+  for (size_t k = 0; k < b->repeat; k++) {
+    double start = clock_work();
+    call(b->job.r);
+    b->samples[k] = clock_work() - start;
+  }
+  return 1000 * cmd_median(b->samples, b->repeat);
+}
+
+static void resolve_frame(raster *r) {
+  (void)raster_resolve_seconds(r);
+}
+
+static void read_frame(raster *r) {
+  arena once = {0};
+  raster_read(r, &once);
+  arena_free(&once);
 }
 
 // The passes, by what a frame takes with and without them.
 static bool measure_passes(bench_raster *b, pass_times *p, error *err) {
   raster_settings with_sky = b->job.settings;
   with_sky.sky = true;
-  double with;
-  if (!measure(&p->shadow, b, true, err) ||
-      !measure(&p->surface, b, false, err) ||
+  double all, with;
+  if (!measure(&all, b, true, err)) return false;
+  bool shadows = raster_last_times(b->job.r).shadow > 0;
+  if (!measure(&p->surface, b, false, err) ||
       !raster_change(b->job.r, &with_sky, err) ||
-      !measure(&with, b, false, err))
+      !measure(&with, b, false, err) || !measure(&with, b, false, err))
     return false;
+  p->shadow = shadows ? all - p->surface : 0;
   p->sky = with - p->surface;
-  for (size_t k = 0; k < b->repeat; k++)
-    b->samples[k] = raster_resolve_seconds(b->job.r);
-  p->resolve = 1000 * cmd_median(b->samples, b->repeat);
+  p->resolve = measure_call(b, resolve_frame);
   p->surface -= p->resolve;
-  for (size_t k = 0; k < b->repeat; k++) {
-    arena once = {0};
-    raster_read(b->job.r, &once);
-    b->samples[k] = raster_last_times(b->job.r).read;
-    arena_free(&once);
-  }
-  p->read = 1000 * cmd_median(b->samples, b->repeat);
+  p->read = measure_call(b, read_frame);
   return true;
 }
 
@@ -103,6 +118,11 @@ static int measure_size(bench_raster *b, bench_line *line) {
 // Milliseconds a frame.
 static double ms_per_frame(const bench_raster *b, const bench_line *l) {
   return 1000 * l->seconds / (double)b->frames;
+}
+
+// The same of processors at work.
+static double work_per_frame(const bench_raster *b, const bench_line *l) {
+  return 1000 * l->work / (double)b->frames;
 }
 
 // A pass by name, and its place in pass_times.
@@ -132,16 +152,18 @@ static void print_frames_table(const bench_raster *b, const bench_line *lines,
          b->shot.o->operands[0], b->shot.scene.mesh.triangle_count,
          gl_backend_name(b->job.g), gl_renderer(b->job.g), b->job.settings.msaa,
          b->frames);
-  printf("%-10s %9s %9s %9s  ", "", "seconds", "ms/frame", "frames/s");
+  printf("%-10s %9s %9s %9s %9s  ", "", "seconds", "ms/frame", "frames/s",
+         "work ms");
   for (int i = 0; i < PASSES; i++)
     printf(" %8s", pass_names[i].name);
-  puts(" (ms)");
+  puts(" (ms of work)");
   for (size_t i = 0; i < n; i++) {
     const bench_line *l = &lines[i];
     double ms = ms_per_frame(b, l);
     char size[32];
     snprintf(size, sizeof size, "%dx%d", l->width, l->height);
-    printf("%-10s %9.3f %9.3f %9.1f  ", size, l->seconds, ms, 1000 / ms);
+    printf("%-10s %9.3f %9.3f %9.1f %9.3f  ", size, l->seconds, ms, 1000 / ms,
+           work_per_frame(b, l));
     for (int k = 0; k < PASSES; k++)
       printf(" %8.3f", pass_ms(l, k));
     putchar('\n');
@@ -151,14 +173,14 @@ static void print_frames_table(const bench_raster *b, const bench_line *lines,
 // For spreadsheets.
 static void print_frames_csv(const bench_raster *b, const bench_line *lines,
                              size_t n) {
-  fputs("width,height,frames,seconds,ms_per_frame", stdout);
+  fputs("width,height,frames,seconds,ms_per_frame,work_ms", stdout);
   for (int i = 0; i < PASSES; i++)
     printf(",%s", pass_names[i].key);
   putchar('\n');
   for (size_t i = 0; i < n; i++) {
     const bench_line *l = &lines[i];
-    printf("%d,%d,%lld,%.9g,%.9g", l->width, l->height, b->frames, l->seconds,
-           ms_per_frame(b, l));
+    printf("%d,%d,%lld,%.9g,%.9g,%.9g", l->width, l->height, b->frames,
+           l->seconds, ms_per_frame(b, l), work_per_frame(b, l));
     for (int k = 0; k < PASSES; k++)
       printf(",%.9g", pass_ms(l, k));
     putchar('\n');
@@ -183,6 +205,7 @@ static void print_frames_json(const bench_raster *b, const bench_line *lines,
     json_count(&j, "height", (unsigned long long)l->height);
     json_number(&j, "seconds", l->seconds);
     json_number(&j, "ms_per_frame", ms_per_frame(b, l));
+    json_number(&j, "work_ms", work_per_frame(b, l));
     for (int k = 0; k < PASSES; k++)
       json_number(&j, pass_names[k].key, pass_ms(l, k));
     json_close(&j, '{');

@@ -53,9 +53,10 @@ const command command_table[] = {
      "will do, t is tmax and the triangle 0 for a hit."},
     {"bench raster", CMD_BENCH_RASTER, "SCENE", 1, 1, "time the raster engine",
      "For each size, --frames frames of the scene without its sky, one after "
-     "another, until the last is finished.  Then the cost of each pass of a "
-     "frame, the median of --repeat: shadow maps, surfaces, sky, and what it "
-     "takes to read the picture back."},
+     "another, until the last is finished: by the clock, and in milliseconds "
+     "of processors at work (work ms).  Then the work of each pass of a frame, "
+     "the median of --repeat: shadow maps, surfaces, sky, and what it takes to "
+     "read the picture back."},
     {"bench error", CMD_BENCH_ERROR, "SCENE", 1, 1,
      "measure run time against error",
      "Each method of --methods makes pictures, the path tracer's at every "
