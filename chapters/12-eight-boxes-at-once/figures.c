@@ -3,6 +3,8 @@
 #include "camera.h"
 #include "num.h"
 #include "picture.h"
+#include "rays.h"
+#include "triangle.h"
 #include "wide.h"
 
 #include <stdio.h>
@@ -121,6 +123,216 @@ static void draw_heats(output *o, const bvh *b, const wide_tree *w) {
          sum[1] / (236 * 236));
 }
 
+// ---- What a fused multiply-add does ----
+
+// Whether a ray from the origin along d passes through a triangle, by the edge
+// functions as a compiler makes them that may fuse x y - z w into one rounding
+// of x y and none of the difference.  A zero counts as inside.
+static bool fused_hit(vec3 d, const vec3 p[3]) {
+  ray_shear s = ray_shear_of(d);
+  float x[3], y[3], e[3];
+  for (int i = 0; i < 3; i++) {
+    const float a[3] = {p[i].x, p[i].y, p[i].z};
+    float z = a[s.kz];
+    if (z * (s.sz > 0 ? 1.0f : -1.0f) <= 0) return false;
+    x[i] = fmaf(-s.sx, z, a[(s.kz + 1) % 3]);
+    y[i] = fmaf(-s.sy, z, a[(s.kz + 2) % 3]);
+  }
+  for (int i = 0; i < 3; i++) {
+    int j = (i + 1) % 3, k = (i + 2) % 3;
+    e[i] = fmaf(x[k], y[j], -(y[k] * x[j]));
+  }
+  bool less = e[0] < 0 || e[1] < 0 || e[2] < 0;
+  return !(less && (e[0] > 0 || e[1] > 0 || e[2] > 0));
+}
+
+// A rock of rings, closed: neighbours share their vertices.
+static rock closed_rock(arena *mem, uint32_t rings, uint32_t sides) {
+  size_t points = (size_t)(rings - 1) * sides + 2;
+  rock m = {ARENA_NEW(mem, vec3, points), ARENA_NEW(mem, uint32_t, 6 * points),
+            0, 0};
+  for (uint32_t j = 1; j < rings; j++)
+    for (uint32_t i = 0; i < sides; i++) {
+      vec2 a = num_circle((float)i / (float)sides);
+      vec2 b = num_circle(0.5f * (float)j / (float)rings);
+      m.p[m.vertices++] = rock_point((vec3){b.y * a.x, b.x, b.y * a.y});
+    }
+  uint32_t north = m.vertices++, south = m.vertices++;
+  m.p[north] = rock_point((vec3){0, 1, 0});
+  m.p[south] = rock_point((vec3){0, -1, 0});
+  for (uint32_t j = 0; j < rings; j++)
+    for (uint32_t i = 0; i < sides; i++) {
+      uint32_t k = (i + 1) % sides, up = (j - 1) * sides, down = j * sides;
+      const uint32_t t[6] = {j > 0 ? up + i : north,
+                             down + k,
+                             down + i,
+                             up + i,
+                             j > 0 ? up + k : north,
+                             j + 1 < rings ? down + k : south};
+      for (int c = j + 1 < rings ? 0 : 3; c < (j > 0 ? 6 : 3); c++)
+        m.index[3 * m.triangles + (uint32_t)(c % 3)] = t[c],
+                                                 m.triangles += c % 3 == 2;
+    }
+  return m;
+}
+
+// A point of the map of all directions, as a disc.
+static void map_dot(image im, vec3 d, int radius, vec3 c) {
+  vec3 u = vec3_unit(d);
+  int x = (int)(480 * (0.5f + atan2f(u.x, -u.z) / (2 * PI)));
+  int y = (int)(240 * acosf(u.y) / PI);
+  for (int q = y - radius; q <= y + radius; q++)
+    for (int w = x - radius; w <= x + radius; w++)
+      if (w >= 0 && w < 480 && q >= 0 && q < 240) im.pixels[q * 480 + w] = c;
+}
+
+// Whether a ray from the origin meets no triangle: by fused edge functions,
+// and by triangle_hit.
+static void ask_both(const rock *m, vec3 d, bool leaks[2]) {
+  ray r = ray_from((vec3){0, 0, 0}, d);
+  ray_shear s = ray_shear_of(d);
+  leaks[0] = leaks[1] = true;
+  for (uint32_t t = 0; t < m->triangles && (leaks[0] || leaks[1]); t++) {
+    const uint32_t *v = m->index + 3 * (size_t)t;
+    vec3 p[3] = {m->p[v[0]], m->p[v[1]], m->p[v[2]]};
+    hit h;
+    if (fused_hit(d, p)) leaks[0] = false;
+    if (triangle_hit(&r, &s, p[0], p[1], p[2], &h)) leaks[1] = false;
+  }
+}
+
+// Rays from the middle of a closed rock at points of its edges, as a map of
+// directions: grey those that hit, red those that find a way out.
+static void draw_leaks(output *o) {
+  rock m = closed_rock(&o->mem, 22, 40);
+  image im = image_new(&o->mem, 480, 240);
+  uint32_t rays = 0, count[2] = {0};
+  for (int i = 0; i < 480 * 240; i++)
+    im.pixels[i] = (vec3){1, 1, 1};
+  for (int pass = 0; pass < 2; pass++)
+    for (uint32_t i = 0; i < 3 * m.triangles; i++) {
+      vec3 a = m.p[m.index[i]], b = m.p[m.index[i - i % 3 + (i + 1) % 3]];
+      for (int k = 1; k < 24; k++) {
+        vec3 d = vec3_lerp(a, b, (float)k / 24);
+        bool leaks[2] = {false, false};
+        if (pass == 1) ask_both(&m, d, leaks);
+        if (pass == 0) map_dot(im, d, 0, (vec3){0.45f, 0.45f, 0.5f});
+        if (leaks[0]) map_dot(im, d, 1, (vec3){0.8f, 0.02f, 0.02f});
+        rays += (uint32_t)pass;
+        count[0] += leaks[0];
+        count[1] += leaks[1];
+      }
+    }
+  publish(o, "fused", im);
+  printf("of %u rays leak: %u with fused edge functions, %u with facet's\n",
+         rays, count[0], count[1]);
+}
+
+// ---- Waiting ----
+
+static void fill(image im, int x0, int y0, int width, int height, vec3 c) {
+  for (int y = y0; y < y0 + height; y++)
+    for (int x = x0; x < x0 + width && x < im.width; x++)
+      im.pixels[y * im.width + x] = c;
+}
+
+// Four rays of five steps each: a step is work and then a wait for memory.
+// Above, one ray after the other; below, each step of another ray.
+static void draw_waiting(output *o) {
+  static const vec3 color[4] = {{0.75f, 0.2f, 0.05f},
+                                {0.05f, 0.35f, 0.6f},
+                                {0.1f, 0.45f, 0.12f},
+                                {0.6f, 0.4f, 0.02f}};
+  const int work = 7, wait = 17, high = 16;
+  image im = image_new(&o->mem, 480, 190);
+  fill(im, 0, 0, 480, 190, (vec3){1, 1, 1});
+  for (int r = 0; r < 4; r++)
+    for (int k = 0; k < 5; k++) {
+      int x = (5 * r + k) * (work + wait), y = 8 + 20 * r;
+      fill(im, x, y, work, high, color[r]);
+      fill(im, x + work, y + high / 2 - 1, wait, 2,
+           vec3_lerp(color[r], vec3_all(1), 0.6f));
+      x = k * (work + wait) + r * work;
+      y = 108 + 20 * r;
+      fill(im, x, y, work, high, color[r]);
+      fill(im, x + work, y + high / 2 - 1, wait, 2,
+           vec3_lerp(color[r], vec3_all(1), 0.6f));
+    }
+  fill(im, 0, 94, 480, 1, (vec3){0.5f, 0.5f, 0.5f});
+  publish(o, "waiting", im);
+}
+
+// ---- Eight bits ----
+
+// The outline of a box, of which x and y are seen, in a picture whose unit is
+// the frame of a node.
+static void outline(image im, const float box[4], vec3 c, int thick) {
+  int x0 = (int)(12 + 456 * box[0]), x1 = (int)(12 + 456 * box[2]);
+  int y0 = (int)(228 - 216 * box[3]), y1 = (int)(228 - 216 * box[1]);
+  fill(im, x0, y0, x1 - x0, thick, c);
+  fill(im, x0, y1 - thick, x1 - x0, thick, c);
+  fill(im, x0, y0, thick, y1 - y0, c);
+  fill(im, x1 - thick, y0, thick, y1 - y0, c);
+}
+
+// The children of the root as the binary tree bounds them, and as bytes would
+// if there were only 16 instead of 256 planes along an axis.
+static void draw_planes(output *o, const bvh *b, const wide_cost *costs) {
+  uint32_t child[WIDE], n = wide_children(b, costs, 0, child);
+  const bvh_node *all = &b->nodes[0];
+  float wx = all->hi.x - all->lo.x, wy = all->hi.y - all->lo.y;
+  image im = image_new(&o->mem, 480, 240);
+  fill(im, 0, 0, 480, 240, (vec3){1, 1, 1});
+  for (int k = 0; k <= 15; k++) {
+    fill(im, 12 + 456 * k / 15, 12, 1, 216, (vec3){0.8f, 0.8f, 0.8f});
+    fill(im, 12, 228 - 216 * k / 15, 456, 1, (vec3){0.8f, 0.8f, 0.8f});
+  }
+  for (uint32_t i = 0; i < n; i++) {
+    const bvh_node *c = &b->nodes[child[i]];
+    float box[4] = {(c->lo.x - all->lo.x) / wx, (c->lo.y - all->lo.y) / wy,
+                    (c->hi.x - all->lo.x) / wx, (c->hi.y - all->lo.y) / wy};
+    float out[4] = {floorf(15 * box[0]) / 15, floorf(15 * box[1]) / 15,
+                    ceilf(15 * box[2]) / 15, ceilf(15 * box[3]) / 15};
+    outline(im, out, (vec3){0.85f, 0.25f, 0.1f}, 1);
+    outline(im, box, (vec3){0.02f, 0.1f, 0.35f}, 2);
+  }
+  publish(o, "planes", im);
+}
+
+// ---- Visits ----
+
+// A table of what rays visit in either tree, kind by kind.
+static void print_visits(output *o, const rock *r, const bvh *b,
+                         const wide_tree *w) {
+  mesh m = {.positions = r->p,
+            .position_count = r->vertices,
+            .position_index = r->index,
+            .triangle_count = r->triangles};
+  ray_source from = {.m = &m, .tree = wide_tracer(w), .size = 200};
+  from.limit = 40000;
+  for (int k = 0; k < RAYS_KINDS; k++) {
+    ray_set s;
+    double n[2] = {0}, t[2] = {0};
+    rays_generate(&s, (ray_kind)k, &from, &o->mem);
+    for (size_t i = 0; i < s.count; i++) {
+      hit h;
+      bvh_visits v[2] = {{0}};
+      bvh_closest_counted(b, &s.rays[i], &h, &v[0]);
+      wide_level_at(0)->closest_counted(w, &s.rays[i], &h, &v[1]);
+      for (int q = 0; q < 2; q++) {
+        n[q] += v[q].nodes;
+        t[q] += v[q].triangles;
+      }
+    }
+    double c = (double)s.count;
+    printf("%-8s nodes %.1f -> %.1f, triangles %.1f -> %.1f\n",
+           rays_kind_name((ray_kind)k), n[0] / c, n[1] / c, t[0] / c, t[1] / c);
+  }
+  printf("%u binary nodes, %u wide ones; bytes a triangle %.1f\n",
+         b->node_count, w->node_count,
+         (double)wide_tree_bytes(w) / r->triangles);
+}
+
 int main(int argc, char **argv) {
   output o = {.folder = argc > 1 ? argv[1] : "."};
   o.threads = pool_new(&o.mem, pool_default_threads());
@@ -130,6 +342,10 @@ int main(int argc, char **argv) {
   wide_tree w;
   wide_tree_build(&w, &b, &o.mem, o.threads);
   draw_heats(&o, &b, &w);
+  draw_planes(&o, &b, wide_costs_of(&b, &o.mem, o.threads));
+  draw_leaks(&o);
+  draw_waiting(&o);
+  print_visits(&o, &m, &b, &w);
   pool_free(o.threads);
   arena_free(&o.mem);
   return 0;
