@@ -58,7 +58,7 @@ typedef struct shares {
 
 static float far_weight(const light_far *f, const light_place *at) {
   return at->all_around ? f->power
-                        : f->power * fmaxf(vec3_dot(at->n, f->wi), 0);
+                        : f->power * float_max(vec3_dot(at->n, f->wi), 0);
 }
 
 static float share_of(float weight, float sum, int kinds) {

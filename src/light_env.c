@@ -67,7 +67,7 @@ static float fill_values(light_env *l, const image *map, float *peak) {
     double of_row = 0, sine = (double)row_sine(l, y);
     for (int x = 0; x < l->width; x++, value++) {
       *value = mean_of(map->pixels[value - l->values]);
-      *peak = fmaxf(*peak, *value);
+      *peak = float_max(*peak, *value);
       of_row += (double)*value;
     }
     sum += of_row * sine;
@@ -86,7 +86,7 @@ static float measure(light_env *l, const image *map, arena *mem) {
   for (int y = 0; y < l->height; y++) {
     float scale = unit * row_sine(l, y);
     for (int x = 0; x < l->width; x++, value++)
-      *value = fmaxf(*value - mean, 0) * scale;
+      *value = float_max(*value - mean, 0) * scale;
   }
   return peak - mean;
 }
@@ -145,7 +145,7 @@ void light_env_build(light_env *out, const env *e, arena *mem, pool *threads) {
 // Where in [0, 1) a density falls that runs from a to b; not both 0.
 static float sample_slope(float a, float b, float u) {
   float t = u * (a + b) / (a + sqrtf(a * a * (1 - u) + b * b * u));
-  return fminf(t, 0x1.fffffep-1f);
+  return float_min(t, 0x1.fffffep-1f);
 }
 
 // Density per steradian at (x, y) of a cell, where its probability is known.
@@ -196,7 +196,7 @@ float light_env_pdf(const light_env *l, vec3 wi) {
   if (i >= l->width) i = 0;
   float high = cell_height(l, j);
   if (j == 0) at.y = 2 * at.y - 1;
-  if (j == l->height) at.y = fminf(2 * at.y, 1);
+  if (j == l->height) at.y = float_min(2 * at.y, 1);
   cell c = cell_at(l, i, j);
   float share = pick_share(&l->columns[j], (uint32_t)i) *
                 pick_share(&l->rows, (uint32_t)j) / high;

@@ -48,7 +48,7 @@ static float lot_cost(const lot *l) {
   if (l->count == 0 || !(l->power > 0)) return 0;
   vec3 d = vec3_sub(l->box.hi, l->box.lo);
   float together = vec3_length(l->axis) / l->power;
-  return l->power * vec3_dot(d, d) * (4 - 3 * fminf(together, 1));
+  return l->power * vec3_dot(d, d) * (4 - 3 * float_min(together, 1));
 }
 
 static float along(vec3 v, int axis) {
@@ -71,11 +71,11 @@ static light_group group_of(const builder *b, const span *s) {
   for (uint32_t i = 0; i < s->count; i++) {
     const light_emitter *e = emitter_at(b, s->first + i);
     vec3 d = vec3_sub(e->shape.middle, g.middle);
-    g.radius = fmaxf(g.radius, vec3_length(d) + e->shape.radius);
+    g.radius = float_max(g.radius, vec3_length(d) + e->shape.radius);
     float c = e->is_point ? -1 : vec3_dot(g.axis, e->shape.n);
-    g.cos_cone = fminf(g.cos_cone, c);
+    g.cos_cone = float_min(g.cos_cone, c);
   }
-  g.sin_cone = sqrtf(fmaxf(1 - g.cos_cone * g.cos_cone, 0));
+  g.sin_cone = sqrtf(float_max(1 - g.cos_cone * g.cos_cone, 0));
   return g;
 }
 

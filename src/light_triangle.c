@@ -19,8 +19,8 @@ bool light_triangle_of(light_triangle *out, vec3 a, vec3 b, vec3 c) {
   t.n = vec3_unit(cross);
   t.middle = vec3_mad(vec3_mad(a, 1.0f / 3, t.ab), 1.0f / 3, t.ac);
   float r = vec3_length(vec3_sub(a, t.middle));
-  r = fmaxf(r, vec3_length(vec3_sub(b, t.middle)));
-  t.radius = fmaxf(r, vec3_length(vec3_sub(c, t.middle)));
+  r = float_max(r, vec3_length(vec3_sub(b, t.middle)));
+  t.radius = float_max(r, vec3_length(vec3_sub(c, t.middle)));
   *out = t;
   float n2 = vec3_dot(t.n, t.n);
   return t.area > 0 && isfinite(t.area) && isfinite(t.radius) &&
@@ -86,7 +86,7 @@ static void sample_angle(const view *v, float u1, float u2, float k[3]) {
   vec3 step = vec3_sub(v->to[1], moved);
   float drop = 0.5f * vec3_dot(step, step);  // 1 - b . moved
   float low = u2 * drop;                     // 1 - b . result
-  float share = sqrtf(u2 * (2 - low) / fmaxf(2 - drop, 1e-6f));
+  float share = sqrtf(u2 * (2 - low) / float_max(2 - drop, 1e-6f));
   k[0] = share * ka;
   k[1] = 1 - low - share * (1 - drop);
   k[2] = share * kc;
@@ -117,7 +117,7 @@ bool light_triangle_sample(const light_triangle *t, vec3 p, float u1, float u2,
     view v = view_of(t, p, height);
     sample_angle(&v, u1, u2, k);
     for (int i = 0; i < 3; i++)
-      k[i] = fmaxf(k[i], 0) / v.far[i];
+      k[i] = float_max(k[i], 0) / v.far[i];
     angle = v.angle;
   }
   float sum = k[0] + k[1] + k[2];
