@@ -107,10 +107,18 @@ static void draw_points(output *o) {
 typedef struct integral {
   const char *name;
   sampler_kind kind;
+  bool plain;  // not scrambled
   bool lamp;
   uint32_t dimension;  // of the lamp
   vec3 color;
 } integral;
+
+static vec2 numbers_at(const integral *of, sampler *s, uint32_t dimension) {
+  sampler_at(s, dimension);
+  if (!of->plain) return sampler_2(s);
+  return (vec2){sobol_number(sobol_digits(s->index, dimension)),
+                sobol_number(sobol_digits(s->index, dimension + 1))};
+}
 
 // The mean squared error of 2^bits samples over many pixels, each with an edge
 // of its own from the left side to the right.
@@ -123,10 +131,9 @@ static double error_of(const integral *of, int bits) {
     double got = 0, want = 0.5 * (double)(left + right) * (of->lamp ? 0.5 : 1);
     for (uint32_t i = 0; i < 1u << bits; i++) {
       sampler s = sampler_of(of->kind, 2, p, i);
-      vec2 at = sampler_2(&s);
+      vec2 at = numbers_at(of, &s, 0);
       double x = at.y < left + (right - left) * at.x;
-      sampler_at(&s, of->dimension);
-      vec2 u = sampler_2(&s);
+      vec2 u = numbers_at(of, &s, of->dimension);
       if (of->lamp) x *= 2 * (double)u.x * (double)u.y;
       got += x;
     }
@@ -140,15 +147,18 @@ static double error_of(const integral *of, int bits) {
 // error down, a line for every factor of 16.
 static void draw_slopes(output *o) {
   enum { FIELD = 56, COLUMNS = 6, ROWS = 6, STEPS = 7 };
-  static const integral ALL[] = {
-      {"random", SAMPLER_RANDOM, false, 2, {0, 0, 0}},
-      {"edge", SAMPLER_SOBOL, false, 2, {0.8f, 0.05f, 0.02f}},
-      {"edge and lamp", SAMPLER_SOBOL, true, 4, {0.02f, 0.15f, 0.7f}},
-      {"edge and lamp of a later block",
-       SAMPLER_SOBOL,
-       true,
-       12,
-       {0.02f, 0.4f, 0.08f}}};
+  const integral ALL[] = {
+      {.name = "random", .kind = SAMPLER_RANDOM, .color = {0, 0, 0}},
+      {.name = "edge, not scrambled", .plain = true, .color = {0.9f, 0.5f, 0}},
+      {.name = "edge", .color = RED},
+      {.name = "edge and lamp",
+       .lamp = true,
+       .dimension = 4,
+       .color = {0.02f, 0.15f, 0.7f}},
+      {.name = "edge and lamp of a later block",
+       .lamp = true,
+       .dimension = 12,
+       .color = {0.02f, 0.4f, 0.08f}}};
   image im = blank(o, FIELD * COLUMNS + 1, FIELD * ROWS * 3 / 4 + 1);
   for (int i = 0; i <= COLUMNS; i++) {
     float x = (float)(i * FIELD), y = (float)(i * FIELD * 3 / 4);
