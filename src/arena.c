@@ -1,5 +1,8 @@
 // arena.c
 
+// For madvise, which POSIX does not have.
+#define _DEFAULT_SOURCE
+
 #include "arena.h"
 
 #include <stdalign.h>
@@ -8,9 +11,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 // Small requests share a block of this many bytes; larger ones get their own.
 enum { BLOCK_BYTES = 1 << 16 };
+
+// From here on large pages are worth asking for.
+enum { LARGE_BYTES = 1 << 22 };
 
 // The bytes follow the header; `used` counts them.
 struct arena_block {
@@ -25,6 +33,21 @@ static _Noreturn void out_of_memory(size_t n, size_t size) {
   exit(5);
 }
 
+// Ask for pages of megabytes where the system has them: fewer interruptions
+// when they are first touched, and fewer addresses to look up ever after.
+static void ask_large_pages(void *p, size_t bytes) {
+#ifdef MADV_HUGEPAGE
+  if (bytes < LARGE_BYTES) return;
+  uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);
+  uintptr_t from = ((uintptr_t)p + page - 1) / page * page;
+  uintptr_t to = ((uintptr_t)p + bytes) / page * page;
+  madvise((void *)from, to - from, MADV_HUGEPAGE);
+#else
+  (void)p;
+  (void)bytes;
+#endif
+}
+
 void *arena_alloc(arena *a, size_t n, size_t size) {
   if (size != 0 && n > (SIZE_MAX / 2) / size) out_of_memory(n, size);
   size_t align = alignof(max_align_t);
@@ -35,6 +58,7 @@ void *arena_alloc(arena *a, size_t n, size_t size) {
     size_t room = own ? bytes : BLOCK_BYTES;
     block = calloc(1, sizeof *block + room);
     if (block == NULL) out_of_memory(n, size);
+    ask_large_pages(block, room);
     block->size = room;
     if (own && a->top != NULL) {
       // Behind the top, which still has room for small requests.

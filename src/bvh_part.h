@@ -34,7 +34,8 @@ static inline bool bvh_cut_left(const bvh_cut *cut, const bvh_part *p,
                                 const sah_ref *ref, uint32_t position) {
   if (cut->split.axis < 0)
     return position - p->begin < (p->end - p->begin + 1) / 2;
-  return sah_bin(&cut->grid, cut->split.axis, &ref->box) <= cut->split.after;
+  return sah_slices_of(&cut->grid, &ref->box)[cut->split.axis] <=
+         cut->split.after;
 }
 
 // A subtree for one thread: refs and root are given, nodes has room for two a

@@ -2,13 +2,14 @@
 
 #include "bvh_read.h"
 
+#include <string.h>
+
 // So many triangles are read in one go.
 enum { PIECE = 4096 };
 
-// A piece of the mesh: how many of its triangles are kept, where their refs
-// begin, and their bounds.
+// A piece of the mesh: how many of its triangles are kept, and their bounds.
 typedef struct mesh_piece {
-  uint32_t kept, first_ref;
+  uint32_t kept;
   sah_box box, centres;
 } mesh_piece;
 
@@ -46,59 +47,46 @@ static bool ref_of_triangle(const bvh *b, uint32_t t, sah_ref *r) {
   return true;
 }
 
-// The triangle behind the last of a piece.
-static uint32_t piece_end(const reading *job, size_t item) {
+// The refs of a piece, where they go when no triangle before is dropped.
+static void read_piece(void *context, size_t item, int worker) {
+  (void)worker;
+  reading *job = context;
+  mesh_piece *p = &job->pieces[item];
   uint32_t begin = (uint32_t)item * PIECE, n = job->b->triangle_count;
-  return n - begin < PIECE ? n : begin + PIECE;
-}
-
-// Count the kept triangles of a piece; the next pass fills their refs.
-static void count_piece(void *context, size_t item, int worker) {
-  (void)worker;
-  reading *job = context;
-  mesh_piece *p = &job->pieces[item];
-  uint32_t end = piece_end(job, item);
-  sah_ref unused;
-  for (uint32_t t = (uint32_t)item * PIECE; t < end; t++)
-    p->kept += ref_of_triangle(job->b, t, &unused);
-}
-
-static void fill_piece(void *context, size_t item, int worker) {
-  (void)worker;
-  reading *job = context;
-  mesh_piece *p = &job->pieces[item];
-  uint32_t end = piece_end(job, item);
-  sah_ref *to = job->refs + p->first_ref;
+  uint32_t end = n - begin < PIECE ? n : begin + PIECE;
+  sah_ref *to = job->refs + begin;
   p->box = p->centres = sah_box_empty();
-  for (uint32_t t = (uint32_t)item * PIECE; t < end; t++) {
-    sah_ref r;
-    if (!ref_of_triangle(job->b, t, &r)) continue;
-    sah_box_join(&p->box, &r.box);
-    sah_box_join_centre(&p->centres, &r.box);
-    *to++ = r;
+  for (uint32_t t = begin; t < end; t++) {
+    if (!ref_of_triangle(job->b, t, to)) continue;
+    sah_box_join(&p->box, &to->box);
+    sah_box_join_centre(&p->centres, &to->box);
+    to++;
   }
+  p->kept = (uint32_t)(to - job->refs) - begin;
 }
 
 bvh_part bvh_read(sah_ref **refs, bvh *b, uint32_t percent, arena *mem,
                   pool *threads) {
-  uint32_t n = b->triangle_count, kept = 0;
-  uint32_t pieces = n / PIECE + (n % PIECE != 0);
-  reading job = {.b = b, .pieces = ARENA_NEW(mem, mesh_piece, pieces)};
-  pool_run(threads, pieces, count_piece, &job);
-  for (uint32_t i = 0; i < pieces; i++) {
-    job.pieces[i].first_ref = kept;
-    kept += job.pieces[i].kept;
-  }
-  b->kept = b->refs = kept;
-  b->dropped = n - kept;
-  *refs = job.refs =
-      ARENA_NEW(mem, sah_ref, kept + (size_t)((uint64_t)kept * percent / 100));
-  pool_run(threads, pieces, fill_piece, &job);
-  bvh_part root = {.end = kept};
+  uint32_t n = b->triangle_count, pieces = n / PIECE + (n % PIECE != 0);
+  size_t room = n + (size_t)((uint64_t)n * percent / 100);
+  reading job = {.b = b,
+                 .pieces = ARENA_NEW(mem, mesh_piece, pieces),
+                 .refs = ARENA_NEW(mem, sah_ref, room)};
+  pool_run(threads, pieces, read_piece, &job);
+  bvh_part root = {.end = 0};
   root.box = root.centres = sah_box_empty();
   for (uint32_t i = 0; i < pieces; i++) {
-    sah_box_join(&root.box, &job.pieces[i].box);
-    sah_box_join(&root.centres, &job.pieces[i].centres);
+    const mesh_piece *p = &job.pieces[i];
+    sah_box_join(&root.box, &p->box);
+    sah_box_join(&root.centres, &p->centres);
+    // Close the gap that dropped triangles have left.
+    if (root.end < i * PIECE)
+      memmove(job.refs + root.end, job.refs + (size_t)i * PIECE,
+              p->kept * sizeof *job.refs);
+    root.end += p->kept;
   }
+  b->kept = b->refs = root.end;
+  b->dropped = n - root.end;
+  *refs = job.refs;
   return root;
 }

@@ -7,7 +7,7 @@
 
 // The refs of all triangles that can be hit, in mesh order, in mem, and the
 // root over them; counts what is kept and dropped in *b.  There is room for
-// `percent` of them more.
+// `percent` more of them.
 bvh_part bvh_read(sah_ref **refs, bvh *b, uint32_t percent, arena *mem,
                   pool *threads);
 

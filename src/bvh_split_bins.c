@@ -6,14 +6,6 @@
 #include <math.h>
 #include <stdbool.h>
 
-// Four lanes at a time, as in sah.c.
-static inline void grow(sah_box *a, const float lo[4], const float hi[4]) {
-  for (int k = 0; k < 4; k++)
-    a->lo[k] = lo[k] < a->lo[k] ? lo[k] : a->lo[k];
-  for (int k = 0; k < 4; k++)
-    a->hi[k] = hi[k] > a->hi[k] ? hi[k] : a->hi[k];
-}
-
 bvh_split_grid bvh_split_grid_of(const sah_box *box) {
   bvh_split_grid g;
   for (int k = 0; k < 3; k++) {
@@ -70,23 +62,18 @@ void bvh_split_bins_add(bvh_split_bins *s, const bvh_split_grid *g,
 
 // Grow a slice by a point, moved into the box of the part: so moved, the
 // points of an outline span what the part and the box have in common.
-static inline void add_point(sah_box *slice, const sah_box *box,
-                             const float v[4]) {
-  float p[4];
-  for (int k = 0; k < 4; k++)
-    p[k] = v[k] < box->lo[k] ? box->lo[k] : v[k];
-  for (int k = 0; k < 4; k++)
-    p[k] = p[k] > box->hi[k] ? box->hi[k] : p[k];
-  grow(slice, p, p);
+static inline void add_point(sah_box *slice, const sah_box *box, sah_lanes v) {
+  v = sah_max(sah_min(v, sah_load(box->hi)), sah_load(box->lo));
+  sah_grow(slice, v, v);
 }
 
 // One edge: its ends in their slices, and where it crosses a plane between
 // slices first..last, in the two at the plane.
 static void add_edge(sah_box *slices, const bvh_split_grid *g, int axis,
-                     const sah_box *box, const float *const ends[2],
+                     const sah_box *box, const sah_lanes ends[2],
                      const int range[2]) {
   bool up = ends[0][axis] <= ends[1][axis];
-  const float *a = ends[up ? 0 : 1], *b = ends[up ? 1 : 0];
+  sah_lanes a = ends[up ? 0 : 1], b = ends[up ? 1 : 0];
   int i = slice_of(g, axis, a[axis]), j = slice_of(g, axis, b[axis]);
   if (i >= range[0] && i <= range[1]) add_point(&slices[i], box, a);
   if (j >= range[0] && j <= range[1]) add_point(&slices[j], box, b);
@@ -94,9 +81,8 @@ static void add_edge(sah_box *slices, const bvh_split_grid *g, int axis,
   if (j > range[1]) j = range[1];
   float inv = 1 / (b[axis] - a[axis]);
   for (; i < j; i++) {
-    float t = (plane_of(g, axis, i + 1) - a[axis]) * inv, v[4];
-    for (int k = 0; k < 4; k++)
-      v[k] = a[k] + t * (b[k] - a[k]);
+    float t = (plane_of(g, axis, i + 1) - a[axis]) * inv;
+    sah_lanes v = a + (sah_lanes){t, t, t, t} * (b - a);
     add_point(&slices[i], box, v);
     add_point(&slices[i + 1], box, v);
   }
@@ -104,9 +90,9 @@ static void add_edge(sah_box *slices, const bvh_split_grid *g, int axis,
 
 void bvh_split_bins_add_parts(bvh_split_bins *s, const bvh_split_grid *g,
                               const sah_box *box, const vec3 p[3]) {
-  const float v[3][4] = {{p[0].x, p[0].y, p[0].z, 0},
-                         {p[1].x, p[1].y, p[1].z, 0},
-                         {p[2].x, p[2].y, p[2].z, 0}};
+  const sah_lanes v[3] = {{p[0].x, p[0].y, p[0].z, 0},
+                          {p[1].x, p[1].y, p[1].z, 0},
+                          {p[2].x, p[2].y, p[2].z, 0}};
   for (int axis = 0; axis < 3; axis++) {
     int range[2] = {slice_of(g, axis, box->lo[axis]),
                     slice_of(g, axis, box->hi[axis])};
@@ -118,7 +104,7 @@ void bvh_split_bins_add_parts(bvh_split_bins *s, const bvh_split_grid *g,
     }
     for (int i = 0; i < 3; i++)
       add_edge(s->box[axis], g, axis, box,
-               (const float *const[2]){v[i], v[(i + 1) % 3]}, range);
+               (const sah_lanes[2]){v[i], v[(i + 1) % 3]}, range);
   }
 }
 

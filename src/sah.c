@@ -4,36 +4,6 @@
 
 #include "aabb.h"
 
-sah_box sah_box_empty(void) {
-  const float inf = INFINITY;
-  return (sah_box){{inf, inf, inf, inf}, {-inf, -inf, -inf, -inf}};
-}
-
-// Four lanes at a time: the compiler makes one minps and one maxps of this.
-static inline void grow(sah_box *a, const sah_box *b) {
-  for (int k = 0; k < 4; k++)
-    a->lo[k] = b->lo[k] < a->lo[k] ? b->lo[k] : a->lo[k];
-  for (int k = 0; k < 4; k++)
-    a->hi[k] = b->hi[k] > a->hi[k] ? b->hi[k] : a->hi[k];
-}
-
-void sah_box_join(sah_box *a, const sah_box *b) {
-  grow(a, b);
-}
-
-// Halves first: the sum of two coordinates near FLT_MAX would overflow.
-static inline float centre_of(const sah_box *b, int axis) {
-  return 0.5f * b->lo[axis] + 0.5f * b->hi[axis];
-}
-
-void sah_box_join_centre(sah_box *a, const sah_box *b) {
-  for (int k = 0; k < 3; k++) {
-    float c = centre_of(b, k);
-    a->lo[k] = c < a->lo[k] ? c : a->lo[k];
-    a->hi[k] = c > a->hi[k] ? c : a->hi[k];
-  }
-}
-
 double sah_half_area(const sah_box *b) {
   return aabb_half_area(
       (aabb){{b->lo[0], b->lo[1], b->lo[2]}, {b->hi[0], b->hi[1], b->hi[2]}});
@@ -49,17 +19,6 @@ sah_grid sah_grid_of(const sah_box *centres, int bins) {
   return g;
 }
 
-// The comparison comes before the conversion, which is undefined for numbers
-// out of range; the largest centre lands on `bins` and belongs to the last.
-static inline int bin_of(const sah_grid *g, int axis, const sah_box *b) {
-  float x = (centre_of(b, axis) - g->lo[axis]) * g->scale[axis];
-  return x < (float)g->bins ? (int)x : g->bins - 1;
-}
-
-int sah_bin(const sah_grid *g, int axis, const sah_box *b) {
-  return bin_of(g, axis, b);
-}
-
 void sah_bins_clear(sah_bins *s, const sah_grid *g) {
   for (int axis = 0; axis < 3; axis++) {
     for (int i = 0; i < g->bins; i++) {
@@ -73,20 +32,21 @@ void sah_bins_add(sah_bins *s, const sah_grid *g, const sah_ref *refs,
                   size_t n) {
   for (size_t i = 0; i < n; i++) {
     const sah_box *b = &refs[i].box;
-    int x = bin_of(g, 0, b), y = bin_of(g, 1, b), z = bin_of(g, 2, b);
-    grow(&s->box[0][x], b);
-    grow(&s->box[1][y], b);
-    grow(&s->box[2][z], b);
-    s->count[0][x]++;
-    s->count[1][y]++;
-    s->count[2][z]++;
+    sah_slices at = sah_slices_of(g, b);
+    sah_lanes lo = sah_load(b->lo), hi = sah_load(b->hi);
+    sah_grow(&s->box[0][at[0]], lo, hi);
+    sah_grow(&s->box[1][at[1]], lo, hi);
+    sah_grow(&s->box[2][at[2]], lo, hi);
+    s->count[0][at[0]]++;
+    s->count[1][at[1]]++;
+    s->count[2][at[2]]++;
   }
 }
 
 void sah_bins_join(sah_bins *s, const sah_grid *g, const sah_bins *other) {
   for (int axis = 0; axis < 3; axis++) {
     for (int i = 0; i < g->bins; i++) {
-      grow(&s->box[axis][i], &other->box[axis][i]);
+      sah_box_join(&s->box[axis][i], &other->box[axis][i]);
       s->count[axis][i] += other->count[axis][i];
     }
   }
@@ -98,14 +58,14 @@ void sah_costs(const sah_bins *s, const sah_grid *g, int axis, double *cost) {
   sah_box box = sah_box_empty();
   uint32_t count = 0;
   for (int i = g->bins - 1; i > 0; i--) {
-    grow(&box, &s->box[axis][i]);
+    sah_box_join(&box, &s->box[axis][i]);
     count += s->count[axis][i];
     cost[i - 1] = count > 0 ? sah_half_area(&box) * count : HUGE_VAL;
   }
   box = sah_box_empty();
   count = 0;
   for (int i = 0; i < g->bins - 1; i++) {
-    grow(&box, &s->box[axis][i]);
+    sah_box_join(&box, &s->box[axis][i]);
     count += s->count[axis][i];
     cost[i] += count > 0 ? sah_half_area(&box) * count : HUGE_VAL;
   }
@@ -116,8 +76,8 @@ static void fill_sides(sah_split *split, const sah_bins *s, const sah_grid *g) {
   split->left = split->right = sah_box_empty();
   split->left_count = 0;
   for (int i = 0; i < g->bins; i++) {
-    grow(i <= split->after ? &split->left : &split->right,
-         &s->box[split->axis][i]);
+    sah_box_join(i <= split->after ? &split->left : &split->right,
+                 &s->box[split->axis][i]);
     if (i <= split->after) split->left_count += s->count[split->axis][i];
   }
 }

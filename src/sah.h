@@ -6,13 +6,59 @@
 #ifndef SAH_H
 #define SAH_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <string.h>
+
+#if defined(__SSE__)
+#include <xmmintrin.h>
+#endif
 
 // A box in the registers' layout: lanes x, y, z and one that means nothing.
 typedef struct sah_box {
   float lo[4], hi[4];
 } sah_box;
+
+// Four lanes as the machine's registers have them.
+typedef float sah_lanes __attribute__((vector_size(16)));
+typedef int32_t sah_slices __attribute__((vector_size(16)));
+
+static inline sah_lanes sah_load(const float from[4]) {
+  sah_lanes v;
+  memcpy(&v, from, sizeof v);
+  return v;
+}
+
+// a < b ? a : b and a > b ? a : b, lane by lane.
+static inline sah_lanes sah_min(sah_lanes a, sah_lanes b) {
+#if defined(__SSE__)
+  return _mm_min_ps(a, b);
+#else
+  sah_slices m = a < b;
+  return (sah_lanes)(((sah_slices)a & m) | ((sah_slices)b & ~m));
+#endif
+}
+
+static inline sah_lanes sah_max(sah_lanes a, sah_lanes b) {
+#if defined(__SSE__)
+  return _mm_max_ps(a, b);
+#else
+  sah_slices m = a > b;
+  return (sah_lanes)(((sah_slices)a & m) | ((sah_slices)b & ~m));
+#endif
+}
+
+// The centre of a box, 0 in the fourth lane: what lies there may be no number
+// to count with.  Halves first: the sum of two coordinates near FLT_MAX would
+// overflow.
+static inline sah_lanes sah_centre(const sah_box *b) {
+  const sah_slices three = {-1, -1, -1, 0};
+  const sah_lanes half = {0.5f, 0.5f, 0.5f, 0.5f};
+  sah_lanes lo = (sah_lanes)((sah_slices)sah_load(b->lo) & three);
+  sah_lanes hi = (sah_lanes)((sah_slices)sah_load(b->hi) & three);
+  return half * lo + half * hi;
+}
 
 // A triangle while the tree is built, 32 bytes: its box, which spares the
 // builder a walk to the vertices, and its number in the fourth lane of lo.
@@ -35,8 +81,20 @@ enum { SAH_MAX_BINS = 32 };
 // scale is 0 along an axis on which all centres agree.
 typedef struct sah_grid {
   int bins;
-  float lo[3], scale[3];
+  float lo[4], scale[4];
 } sah_grid;
+
+// The slices of a box along all axes.  The comparison comes before the
+// conversion, which is undefined for numbers out of range; the largest centre
+// lands on `bins` and belongs to the last.
+static inline sah_slices sah_slices_of(const sah_grid *g, const sah_box *b) {
+  sah_lanes x = (sah_centre(b) - sah_load(g->lo)) * sah_load(g->scale);
+  float bins = (float)g->bins;
+  sah_lanes last = {bins - 1, bins - 1, bins - 1, bins - 1};
+  sah_slices within = x < (sah_lanes){bins, bins, bins, bins};
+  x = (sah_lanes)(((sah_slices)x & within) | ((sah_slices)last & ~within));
+  return __builtin_convertvector(x, sah_slices);
+}
 
 // What lies in each slice of each axis.
 typedef struct sah_bins {
@@ -53,19 +111,34 @@ typedef struct sah_split {
   sah_box left, right;
 } sah_split;
 
-// The empty box; a grown to hold b; a grown to hold the centre of b.
-sah_box sah_box_empty(void);
-void sah_box_join(sah_box *a, const sah_box *b);
-void sah_box_join_centre(sah_box *a, const sah_box *b);
+// The empty box.
+static inline sah_box sah_box_empty(void) {
+  const float inf = INFINITY;
+  return (sah_box){{inf, inf, inf, inf}, {-inf, -inf, -inf, -inf}};
+}
+
+// lo and hi joined to those of a, four lanes at a time.
+static inline void sah_grow(sah_box *a, sah_lanes lo, sah_lanes hi) {
+  sah_lanes x = sah_min(lo, sah_load(a->lo)), y = sah_max(hi, sah_load(a->hi));
+  memcpy(a->lo, &x, sizeof x);
+  memcpy(a->hi, &y, sizeof y);
+}
+
+// a grown to hold b; a grown to hold the centre of b.
+static inline void sah_box_join(sah_box *a, const sah_box *b) {
+  sah_grow(a, sah_load(b->lo), sah_load(b->hi));
+}
+
+static inline void sah_box_join_centre(sah_box *a, const sah_box *b) {
+  sah_lanes c = sah_centre(b);
+  sah_grow(a, c, c);
+}
 
 // Half the surface area, 0 for an empty box.
 double sah_half_area(const sah_box *b);
 
 // A grid of `bins` slices over centres with the given bounds.
 sah_grid sah_grid_of(const sah_box *centres, int bins);
-
-// The slice of a box along an axis.
-int sah_bin(const sah_grid *g, int axis, const sah_box *b);
 
 // Empty bins; the bins of n triangles added; other bins added.
 void sah_bins_clear(sah_bins *s, const sah_grid *g);
