@@ -19,17 +19,19 @@ typedef struct bvh_node {
 
 // How nodes are split: where the surface area heuristic expects the least
 // work, asking at up to 31, 15 or 7 places an axis; or through the middle of
-// the longest side.
+// the longest side.  Coarse: as the first, but a few triangles stay together,
+// for trees that test the triangles of a leaf at once.
 typedef enum bvh_method {
   BVH_SAH,
   BVH_MEDIAN,
   BVH_SAH_16,
-  BVH_SAH_8
+  BVH_SAH_8,
+  BVH_COARSE
 } bvh_method;
 
 // No leaf lies deeper, whatever the input; the root has depth 0.  No leaf
-// holds more triangles.
-enum { BVH_MAX_DEPTH = 64, BVH_MAX_LEAF = 8 };
+// holds more triangles.  BVH_COARSE cuts none of up to BVH_COARSE_LEAF.
+enum { BVH_MAX_DEPTH = 64, BVH_MAX_LEAF = 8, BVH_COARSE_LEAF = 4 };
 
 // The triangles of a mesh and a tree over those that can be hit: zero-area
 // triangles and those with a corner that is not finite are dropped.

@@ -16,7 +16,7 @@ static int halvings(uint32_t n) {
 // Slices for a node of n triangles: few triangles need few.
 static int bins_for(uint32_t n, bvh_method method) {
   if (method == BVH_MEDIAN) return 2;
-  int most = method == BVH_SAH ? SAH_MAX_BINS : method == BVH_SAH_16 ? 16 : 8;
+  int most = method == BVH_SAH_16 ? 16 : method == BVH_SAH_8 ? 8 : SAH_MAX_BINS;
   int bins = n < 8 * SAH_MAX_BINS ? 4 + (int)(n / 8) : SAH_MAX_BINS;
   return bins < most ? bins : most;
 }
@@ -27,6 +27,7 @@ sah_grid bvh_part_grid(const bvh_part *p, bvh_method method) {
   uint32_t n = p->end - p->begin;
   sah_grid none = {0};
   if (n < 2 || p->depth + halvings(n) >= BVH_MAX_DEPTH) return none;
+  if (method == BVH_COARSE && n <= BVH_COARSE_LEAF) return none;
   sah_grid g = sah_grid_of(&p->centres, bins_for(n, method));
   bool flat = g.scale[0] == 0 && g.scale[1] == 0 && g.scale[2] == 0;
   return flat ? none : g;
@@ -42,6 +43,7 @@ bool bvh_cut_choose(bvh_cut *cut, const bvh_part *p, const sah_bins *bins,
       cut->split = sah_middle_split(bins, &cut->grid, &p->centres);
     return true;
   }
+  if (method == BVH_COARSE && n <= BVH_COARSE_LEAF) return false;
   double area = sah_half_area(&p->box);
   if (cut->grid.bins > 0) cut->split = sah_best_split(bins, &cut->grid, area);
   if (n > BVH_MAX_LEAF) return true;

@@ -17,6 +17,11 @@
 // moved in one go; a large triangle asks for room for PARTS more of it.
 enum { TASKS = 64, SMALL = 2048, CHUNK = 4096, PARTS = 32 };
 
+// What a box that a ray enters for nothing costs, and what the build costs
+// more for each triangle when some are cut.  Measured, and rough.
+#define RAY_SECONDS 4e-9
+#define CUT_SECONDS 3e-6
+
 // A subtree for one thread, as bvh_task: leaves count in `order`.
 typedef struct split_task {
   bvh_split_node root;
@@ -39,20 +44,82 @@ typedef struct split_builder {
   uint32_t queue_count, task_count, top_count;
 } split_builder;
 
-// Mark the refs whose triangles are large, and count them.
-static uint32_t mark_large(sah_ref *refs, const bvh_part *root) {
-  aabb all = {{root->box.lo[0], root->box.lo[1], root->box.lo[2]},
-              {root->box.hi[0], root->box.hi[1], root->box.hi[2]}};
-  float least = slab_large(&all);
-  uint32_t count = 0;
-  for (uint32_t i = root->begin; i < root->end; i++) {
-    const sah_box *b = &refs[i].box;
-    vec3 side = {b->hi[0] - b->lo[0], b->hi[1] - b->lo[1], b->hi[2] - b->lo[2]};
-    bool large = vec3_peak(side) > least;
-    refs[i].as.unused = large ? SPLIT_LARGE : SPLIT_WHOLE;
-    count += large;
+// Refs that one work item looks at, and what it finds: how many triangles are
+// large, and by how much their boxes are too large together.
+typedef struct split_look {
+  uint32_t large;
+  double excess;
+} split_look;
+
+typedef struct split_looking {
+  const bvh *b;
+  sah_ref *refs;
+  uint32_t count;
+  float least;  // slab_large
+  split_look *found;
+} split_looking;
+
+// Half the area of a box less that of a flat box around the triangle in it:
+// half the rays that enter the one for nothing.
+static double excess_of(const bvh *b, const sah_ref *r) {
+  const uint32_t *v = b->index + 3 * (size_t)r->as.triangle;
+  const vec3 *p = b->positions;
+  double e[2][3];
+  for (int i = 0; i < 2; i++) {
+    e[i][0] = (double)p[v[i + 1]].x - (double)p[v[0]].x;
+    e[i][1] = (double)p[v[i + 1]].y - (double)p[v[0]].y;
+    e[i][2] = (double)p[v[i + 1]].z - (double)p[v[0]].z;
   }
-  return count;
+  double x = e[0][1] * e[1][2] - e[0][2] * e[1][1];
+  double y = e[0][2] * e[1][0] - e[0][0] * e[1][2];
+  double z = e[0][0] * e[1][1] - e[0][1] * e[1][0];
+  return fmax(sah_half_area(&r->box) - sqrt(x * x + y * y + z * z), 0);
+}
+
+// Mark the refs whose triangles are large.
+static void look_at(void *context, size_t item, int worker) {
+  (void)worker;
+  const split_looking *job = context;
+  split_look *found = &job->found[item];
+  uint32_t begin = (uint32_t)item * CHUNK;
+  uint32_t end = job->count - begin < CHUNK ? job->count : begin + CHUNK;
+  for (uint32_t i = begin; i < end; i++) {
+    sah_ref *r = &job->refs[i];
+    vec3 side = {r->box.hi[0] - r->box.lo[0], r->box.hi[1] - r->box.lo[1],
+                 r->box.hi[2] - r->box.lo[2]};
+    bool large = vec3_peak(side) > job->least;
+    r->as.unused = large ? SPLIT_LARGE : SPLIT_WHOLE;
+    if (!large) continue;
+    found->large++;
+    found->excess += excess_of(job->b, r);
+  }
+}
+
+// All of them.
+static split_look look_at_all(const bvh *b, sah_ref *refs, const sah_box *box,
+                              arena *mem, pool *threads) {
+  aabb all = {{box->lo[0], box->lo[1], box->lo[2]},
+              {box->hi[0], box->hi[1], box->hi[2]}};
+  size_t chunks = b->kept / CHUNK + 1;
+  split_looking job = {.b = b,
+                       .refs = refs,
+                       .count = b->kept,
+                       .least = slab_large(&all),
+                       .found = ARENA_NEW(mem, split_look, chunks)};
+  split_look sum = {0};
+  pool_run(threads, chunks, look_at, &job);
+  for (size_t i = 0; i < chunks; i++) {
+    sum.large += job.found[i].large;
+    sum.excess += job.found[i].excess;
+  }
+  double area = sah_half_area(box);
+  sum.excess = area > 0 ? sum.excess / area : 0;
+  return sum;
+}
+
+// Whether cutting triangles repays itself.
+static bool worth_cutting(const split_look *l, uint32_t kept, double rays) {
+  return l->large > 0 && rays * l->excess * RAY_SECONDS > kept * CUT_SECONDS;
 }
 
 // A node joins the tasks or the queue.
@@ -179,23 +246,24 @@ static void make_room(split_builder *b, uint32_t room, arena *scratch) {
   b->order = ARENA_NEW(scratch, uint32_t, room);
 }
 
-void bvh_split_build(bvh *out, const vec3 *positions, const uint32_t *index,
-                     uint32_t triangle_count, arena *mem, pool *threads) {
+void bvh_split_build(bvh *out, const bvh *mesh, double rays, arena *mem,
+                     pool *threads) {
   double start = clock_seconds();
-  *out = (bvh){
-      .positions = positions, .index = index, .triangle_count = triangle_count};
+  bvh of = {.positions = mesh->positions,
+            .index = mesh->index,
+            .triangle_count = mesh->triangle_count};
   arena scratch = {0};
   split_builder b = {.out = out, .shop = {.b = out, .threads = threads}};
+  *out = of;
   bvh_split_node root = {
       .part =
           bvh_read(&b.shop.refs[0], out, BVH_SPLIT_PERCENT, &scratch, threads)};
-  root.large = mark_large(b.shop.refs[0], &root.part);
-  if (root.large == 0) {
-    arena_free(&scratch);
-    bvh_build(out, positions, index, triangle_count, BVH_SAH, mem, threads);
-  } else {
+  split_look look =
+      look_at_all(out, b.shop.refs[0], &root.part.box, &scratch, threads);
+  if (worth_cutting(&look, out->kept, rays)) {
     uint64_t most = (uint64_t)out->kept * BVH_SPLIT_PERCENT / 100;
-    uint64_t wish = (uint64_t)root.large * PARTS;
+    uint64_t wish = (uint64_t)look.large * PARTS;
+    root.large = look.large;
     root.room_end = out->kept + (uint32_t)(wish < most ? wish : most);
     b.shop.root_area = sah_half_area(&root.part.box);
     make_room(&b, root.room_end, &scratch);
@@ -203,6 +271,10 @@ void bvh_split_build(bvh *out, const vec3 *positions, const uint32_t *index,
     build_tasks(&b, mem);
     out->cost = bvh_cost(out);
     arena_free(&scratch);
+  } else {
+    arena_free(&scratch);
+    bvh_build(out, of.positions, of.index, of.triangle_count, BVH_COARSE, mem,
+              threads);
   }
   out->seconds = clock_seconds() - start;
 }

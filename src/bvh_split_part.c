@@ -159,14 +159,14 @@ static bool choose_cut(parting *p) {
   // The room and not the refs bounds the depth: all below may fill it.
   bvh_part most = n->part;
   most.end = most.begin + (n->room_end - n->room_begin);
-  p->cut.grid = bvh_part_grid(&most, BVH_SAH);
+  p->cut.grid = bvh_part_grid(&most, BVH_COARSE);
   bvh_split_chunk *c = p->shop->chunks;
   if (p->cut.grid.bins > 0) {
     run(p, bin_refs);
     for (uint32_t i = 1; i < p->chunk_count; i++)
       sah_bins_join(&c[0].bins, &p->cut.grid, &c[i].bins);
   }
-  return bvh_cut_choose(&p->cut, &n->part, &c[0].bins, BVH_SAH);
+  return bvh_cut_choose(&p->cut, &n->part, &c[0].bins, BVH_COARSE);
 }
 
 // The area in which two boxes overlap.
@@ -250,7 +250,7 @@ bool bvh_split_node_part(const bvh_split_shop *shop, const bvh_split_node *n,
   make_chunks(&p);
   bool cut = choose_cut(&p);
   p.space.axis = -1;
-  if (size >= 2 && may_cut_space(&p)) {
+  if (size > BVH_COARSE_LEAF && may_cut_space(&p)) {
     double area = sah_half_area(&n->part.box);
     double least = p.cut.split.axis >= 0 ? p.cut.split.cost : HUGE_VAL;
     if (size <= BVH_MAX_LEAF && area * size < least) least = area * size;

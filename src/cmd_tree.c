@@ -4,23 +4,34 @@
 
 #include "bvh_split.h"
 
+#include <math.h>
+
 // The words of --bvh, in the order of its row in the table of options.
 enum { TREE_AUTO, TREE_BINARY, TREE_WIDE, TREE_BRUTE, TREE_FAST, TREE_HIGH };
+
+// The binary tree: cut triangles or not, as the word says or the rays repay.
+static void build_binary(cmd_tree *t, long long word, const mesh *m, arena *mem,
+                         pool *threads) {
+  bvh of = {.positions = m->positions,
+            .index = m->position_index,
+            .triangle_count = (uint32_t)m->triangle_count};
+  if (word == TREE_AUTO || word == TREE_HIGH) {
+    double rays = word == TREE_HIGH ? HUGE_VAL : t->rays;
+    bvh_split_build(&t->binary, &of, rays, mem, threads);
+    return;
+  }
+  bool coarse = word == TREE_WIDE || word == TREE_FAST;
+  bvh_build(&t->binary, of.positions, of.index, of.triangle_count,
+            coarse ? BVH_COARSE : BVH_SAH, mem, threads);
+}
 
 void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
                     pool *threads) {
   long long word = o->value[OPT_BVH].words;
   bool wide = word != TREE_BINARY && word != TREE_BRUTE;
   arena scratch = {0};
-  *out = (cmd_tree){0};
-  if (word == TREE_HIGH)
-    bvh_split_build(&out->binary, m->positions, m->position_index,
-                    (uint32_t)m->triangle_count, &scratch, threads);
-  else
-    bvh_build(&out->binary, m->positions, m->position_index,
-              (uint32_t)m->triangle_count,
-              word == TREE_FAST ? BVH_SAH_8 : BVH_SAH, wide ? &scratch : mem,
-              threads);
+  *out = (cmd_tree){.rays = out->rays};
+  build_binary(out, word, m, wide ? &scratch : mem, threads);
   out->seconds = out->binary.seconds;
   if (wide) wide_tree_build(&out->wide, &out->binary, mem, threads);
   if (out->wide.nodes == NULL) {
@@ -48,6 +59,8 @@ void cmd_tree_json(json *j, const cmd_tree *t) {
   json_text(j, "kind", wide ? "wide" : "binary");
   json_count(j, "nodes", wide ? t->wide.node_count : t->binary.node_count);
   json_number(j, "cost", t->binary.cost);
+  json_count(j, "parts", t->binary.refs - t->binary.kept);
+  json_number(j, "rays_expected", t->rays);
   int depth = wide ? t->wide.depth : t->binary.depth;
   json_count(j, "depth", (unsigned long long)depth);
   json_count(j, "dropped", t->binary.dropped);

@@ -14,8 +14,10 @@ typedef struct cmd_tree {
   wide_tree wide;  // nodes NULL when it is not what traces
   tracer tracer;
   double seconds;
+  double rays;  // how many are expected
 } cmd_tree;
 
+// `rays` of *out is given, and tells auto whether cutting triangles pays.
 void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
                     pool *threads);
 

@@ -136,8 +136,12 @@ typedef struct grove {
 
 static void grove_plant(grove *g, shape s, arena *mem) {
   *g = (grove){.s = s, .extent = {1, 1, 1}};
-  bvh_split_build(&g->split, s.positions, s.index, s.triangles, mem, NULL);
-  bvh_build(&g->plain, s.positions, s.index, s.triangles, BVH_SAH, mem, NULL);
+  bvh of = {.positions = s.positions,
+            .index = s.index,
+            .triangle_count = s.triangles};
+  bvh_split_build(&g->split, &of, INFINITY, mem, NULL);
+  bvh_build(&g->plain, s.positions, s.index, s.triangles, BVH_COARSE, mem,
+            NULL);
   wide_tree_build(&g->wide, &g->split, mem, NULL);
   g->tracer = wide_tracer(&g->wide);
   if (g->split.nodes == NULL) return;
@@ -372,8 +376,10 @@ static void threads_do_not_matter(void **unused) {
     const int threads[3] = {1, 2, 7};
     for (int j = 0; j < 3; j++) {
       pool *p = pool_new(&mem, threads[j]);
-      bvh_split_build(&b[j], s[k].positions, s[k].index, s[k].triangles, &mem,
-                      p);
+      bvh of = {.positions = s[k].positions,
+                .index = s[k].index,
+                .triangle_count = s[k].triangles};
+      bvh_split_build(&b[j], &of, INFINITY, &mem, p);
       pool_free(p);
     }
     check_tree(&b[0]);
