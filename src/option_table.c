@@ -216,7 +216,8 @@ const option option_table[OPTION_COUNT] = {
                      .help = "where random numbers come from"},
     [OPT_BVH] = {"bvh", 0, SHOWS | CMD_BENCH_RAYS, OPTION_WORD,
                  "auto|binary|wide|brute|fast|high", "auto",
-                 .help = "how triangles are found; brute tests every one"},
+                 .help = "how triangles are found; brute tests every one, high "
+                         "cuts large ones, auto when it pays"},
     [OPT_EXPOSURE] = {"exposure", 0, CMD_RENDER | CMD_VIEW, OPTION_NUMBER,
                       "STOPS", NULL, -64, 64,
                       .help =
