@@ -51,9 +51,6 @@ typedef struct render_job {
 // Samples a pixel where only time or error ends the run.
 enum { SPP_WITHOUT_LIMIT = 1 << 24 };
 
-// What to expect where the number of samples is open, and the rays of a path.
-enum { SPP_GUESS = 64, RAYS_A_PATH = 4 };
-
 // Whether an option was given on the command line.
 static bool given(const render_job *j, option_id id) {
   return j->o->value[id].given;
@@ -305,18 +302,13 @@ static void choose_guide(render_job *j) {
   s->guide = &j->guide;
 }
 
-// How many rays the picture will take, roughly.
-static double expected_rays(const render_job *j) {
-  int spp = j->settings.spp < SPP_WITHOUT_LIMIT ? j->settings.spp : SPP_GUESS;
-  return (double)j->shot.width * j->shot.height * spp * RAYS_A_PATH;
-}
-
 // Build the tree and trace paths.
 static void run_path(render_job *j) {
   shot *s = &j->shot;
   const mesh *m = &s->scene.mesh;
   choose_settings(j);
-  j->tree.rays = expected_rays(j);
+  bool open = j->settings.spp == SPP_WITHOUT_LIMIT;
+  j->tree.rays = cmd_tree_rays(s->width, s->height, open ? 0 : j->settings.spp);
   cmd_tree_build(&j->tree, j->o, m, s->mem, s->threads);
   j->world.tracer = j->tree.tracer;
   choose_integrator(j);

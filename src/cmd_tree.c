@@ -9,6 +9,13 @@
 // The words of --bvh, in the order of its row in the table of options.
 enum { TREE_AUTO, TREE_BINARY, TREE_WIDE, TREE_BRUTE, TREE_FAST, TREE_HIGH };
 
+// What to expect where the number of samples is open, and the rays of a path.
+enum { SPP_GUESS = 64, RAYS_A_PATH = 4 };
+
+double cmd_tree_rays(int width, int height, int spp) {
+  return (double)width * height * (spp > 0 ? spp : SPP_GUESS) * RAYS_A_PATH;
+}
+
 // The binary tree: cut triangles or not, as the word says or the rays repay.
 static void build_binary(cmd_tree *t, long long word, const mesh *m, arena *mem,
                          pool *threads) {

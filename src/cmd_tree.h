@@ -17,6 +17,9 @@ typedef struct cmd_tree {
   double rays;  // how many are expected
 } cmd_tree;
 
+// How many rays a picture takes, roughly; spp 0: nobody knows.
+double cmd_tree_rays(int width, int height, int spp);
+
 // `rays` of *out is given, and tells auto whether cutting triangles pays.
 void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
                     pool *threads);
