@@ -7,10 +7,12 @@
 #include "picture.h"
 #include "plot.h"
 #include "render.h"
+#include "text.h"
 #include "wide.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 // Where the pictures go.
 typedef struct output {
@@ -278,6 +280,85 @@ static void draw_samples(output *o) {
   publish(o, "samples", out);
 }
 
+// Lines of measured.csv, as facet bench error --csv printed them.
+typedef struct measured {
+  char method[16];
+  int spp, runs;
+  double seconds, square;  // the least of the runs, the sum of relMSE
+} measured;
+
+enum { MOST_POINTS = 100 };
+
+static span field(span *line) {
+  const char *comma = memchr(line->at, ',', line->length);
+  size_t n = comma != NULL ? (size_t)(comma - line->at) : line->length;
+  span out = {line->at, n};
+  n += comma != NULL;
+  *line = (span){line->at + n, line->length - n};
+  return out;
+}
+
+static int read_measured(output *o, measured *out) {
+  error err;
+  span text, line;
+  if (!text_read(&text, "chapters/15-time-against-error/measured.csv", &o->mem,
+                 &err))
+    give_up(&err);
+  text_lines lines = text_lines_of(text, 1);
+  int n = 0;
+  while (text_next_line(&lines, &line)) {
+    span method = field(&line), spp = field(&line);
+    long long samples;
+    float seconds, relmse;
+    field(&line);
+    if (!span_int(spp, &samples) || !span_float(field(&line), &seconds))
+      continue;
+    field(&line), field(&line);
+    if (!span_float(field(&line), &relmse)) continue;
+    if (n == 0 || !span_is(method, out[n - 1].method) ||
+        out[n - 1].spp != (int)samples) {
+      out[n] = (measured){.spp = (int)samples, .seconds = (double)INFINITY};
+      snprintf(out[n].method, sizeof out[n].method, "%.*s", (int)method.length,
+               method.at);
+      n++;
+    }
+    out[n - 1].runs++;
+    out[n - 1].seconds = fmin(out[n - 1].seconds, (double)seconds);
+    out[n - 1].square += (double)relmse;
+  }
+  text_lines_free(&lines);
+  return n;
+}
+
+// Every method of the book: seconds against error.
+static void draw_book(output *o) {
+  static measured m[MOST_POINTS];
+  static double x[MOST_POINTS], y[MOST_POINTS];
+  plot_series series[16] = {{0}};
+  int n = read_measured(o, m);
+  size_t count = 0;
+  for (int i = 0; i < n; i++) {
+    x[i] = m[i].seconds, y[i] = sqrt(m[i].square / m[i].runs);
+    if (i == 0 || strcmp(m[i].method, m[i - 1].method) != 0) {
+      series[count] = (plot_series){.name = m[i].method,
+                                    .color = plot_color(count),
+                                    .mark = (plot_mark)(1 + count % 6),
+                                    .x = &x[i],
+                                    .y = &y[i]};
+      count++;
+    }
+    series[count - 1].n++;
+  }
+  plot p = {.width = 480,
+            .height = 340,
+            .title = "the garden, 160x100",
+            .x = {.label = "seconds (whole process)", .log = true},
+            .y = {.label = "relative error", .log = true},
+            .series = series,
+            .count = count};
+  publish_plot(o, "book", &p);
+}
+
 int main(int argc, char **argv) {
   if (argc != 2) return 2;
   output o = {.folder = argv[1]};
@@ -286,6 +367,7 @@ int main(int argc, char **argv) {
   draw_estimates(&o);
   draw_bias(&o);
   draw_samples(&o);
+  draw_book(&o);
   pool_free(o.threads);
   arena_free(&o.mem);
   return 0;
