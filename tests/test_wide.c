@@ -60,6 +60,13 @@ static bool many_agree(answers *a, const wide_grove *w) {
   return true;
 }
 
+// The same for a tree too deep for streams, or so its depth says.
+static bool deep_agree(answers *a, const wide_grove *w) {
+  wide_grove deep = *w;
+  deep.wide.depth = BVH_MAX_DEPTH;
+  return many_agree(a, &deep);
+}
+
 static void try_batch(void *context, size_t item, int worker) {
   (void)worker;
   wide_grove *w = context;
@@ -72,7 +79,7 @@ static void try_batch(void *context, size_t item, int worker) {
     wide_grove of = *w;
     of.level = wide_level_at(level);
     if (of.level == NULL) continue;
-    bool agree = many_agree(&a, &of);
+    bool agree = many_agree(&a, &of) && deep_agree(&a, &of);
     for (int i = 0; i < BATCH && agree; i++)
       agree = single_agrees(&a, &of, i);
     if (!agree) w->g.wrong = 1;  // only told apart from 0

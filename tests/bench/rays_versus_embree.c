@@ -176,10 +176,9 @@ static void compare_mesh(contest *c, RTCDevice device, const char *path) {
             (uint32_t)m.triangle_count, BVH_SAH, &mem, NULL);
   wide_tree_build(&c->wide, &c->binary, &mem, NULL);
   printf("== %s: %zu triangles; build %.3f s, facet %.3f + %.3f; "
-         "%.1f bytes a triangle, %.2f triangles a leaf, %.2f children a node\n",
+         "%.1f bytes a triangle\n",
          path, m.triangle_count, embree, c->binary.seconds, c->wide.seconds,
-         (double)wide_tree_bytes(&c->wide) / (double)m.triangle_count, 0.0,
-         0.0);
+         (double)wide_tree_bytes(&c->wide) / (double)m.triangle_count);
   ray_source from = {.m = &m, .tree = wide_tracer(&c->wide)};
   from.size = (int)setting("SIZE", 640);
   from.limit = (size_t)setting("LIMIT", 400000);
