@@ -10,7 +10,7 @@
 // stack: one below all, at most WIDE - 1 a level of the tree, and what
 // push_children writes beyond.
 enum {
-  FLIGHTS = 32,
+  FLIGHTS = 24,
   FLIGHT_DEPTH = 23,
   FLIGHT_STACK = 1 + (WIDE - 1) * FLIGHT_DEPTH + WIDE
 };

@@ -33,14 +33,13 @@ SIMD void stream_nodes(const wide_tree *t, const flight_list *of, bool any) {
   }
 }
 
-// What a leaf's candidates did to a ray.
-SIMD void flight_settle(stream *s, flight *f, uint32_t m, bool any) {
+// What a leaf's candidates m do to a ray; c is theirs from leaf_edges.
+SIMD void flight_settle(stream *s, flight *f, leaf_shear *c, uint32_t m,
+                        bool any) {
   uint32_t n = wide_leaf_count(f->next);
   const uint32_t *leaf =
       s->t->triangles + 10 * (size_t)wide_leaf_first(f->next);
-  leaf_shear c;
-  leaf_edges(&c, &f->w, leaf, n);
-  if (!leaf_settle(&f->w, &c, leaf, n, m, any)) return;
+  if (!leaf_settle(&f->w, c, leaf, n, m, any)) return;
   if (any) {
     s->blocked[f->index] = true;
     f->top = 1;
@@ -55,17 +54,17 @@ SIMD void stream_leaves(stream *s, const flight_list *of, bool any) {
   const wide_tree *t = s->t;
   flight *at[FLIGHTS];
   uint32_t mask[FLIGHTS], count = 0;
+  leaf_shear c[FLIGHTS];
   for (uint32_t i = 0; i < of->count; i++) {
     flight *f = of->at[i];
-    leaf_shear c;
     at[count] = f;
     mask[count] = leaf_edges(
-        &c, &f->w, t->triangles + 10 * (size_t)wide_leaf_first(f->next),
+        &c[count], &f->w, t->triangles + 10 * (size_t)wide_leaf_first(f->next),
         wide_leaf_count(f->next));
     count += mask[count] != 0;
   }
   for (uint32_t i = 0; i < count; i++)
-    flight_settle(s, at[i], mask[i], any);
+    flight_settle(s, at[i], &c[i], mask[i], any);
 }
 
 // Ask for what flights_next did not: the rest of leaves.
