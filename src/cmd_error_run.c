@@ -9,6 +9,9 @@
 
 #include <math.h>
 
+// Places in the list of methods.
+enum { METHOD_PATH = 1, METHOD_ADAPTIVE = 8 };
+
 const error_method error_methods[] = {
     {"raster", .flags = {"--engine=raster"}},
     {"path", .path = true, .flags = {"--engine=path"}},
@@ -144,7 +147,7 @@ static int get_reference(error_run *r, int most_spp, uint64_t seed) {
     return cmd_fail(r->o, EXIT_INPUT, "%s", err.text);
   }
   r->reference_spp = most_spp * REFERENCE_FACTOR;
-  error_order k = {&error_methods[1], r->reference_spp, 0,
+  error_order k = {&error_methods[METHOD_PATH], r->reference_spp, 0,
                    seed + REFERENCE_SEED};
   child_run run;
   int code = make_picture(&run, &r->reference, r, &k, r->mem);
@@ -180,7 +183,7 @@ static int plan_points(error_run *r) {
 static double path_estimate(const error_run *r, int spp) {
   for (size_t i = 0; i < r->count; i++) {
     const error_point *p = &r->points[i];
-    if (p->method->path && !p->method->adaptive && p->spp == spp)
+    if (p->method == &error_methods[METHOD_PATH] && p->spp == spp)
       return error_point_mean(r, p).estimate;
   }
   return 0;
@@ -190,6 +193,11 @@ int error_run_all(error_run *r) {
   r->runs = (size_t)r->o->value[OPT_RUNS].whole[0];
   uint64_t seed = (uint64_t)r->o->value[OPT_SEED].whole[0];
   int most = plan_points(r);
+  unsigned chosen = r->o->value[OPT_METHODS].words;
+  if ((chosen >> METHOD_ADAPTIVE & 1) != 0 && (chosen >> METHOD_PATH & 1) == 0)
+    return cmd_fail(r->o, EXIT_USAGE,
+                    "--methods adaptive needs path beside it, whose errors it "
+                    "is to reach");
   int code = get_reference(r, most, seed);
   for (size_t i = 0; i < r->count; i++) {
     error_point *p = &r->points[i];

@@ -109,6 +109,7 @@ ok "the same error as compare's" python3 -c '
 import json
 a, b = json.load(open("four.json"))["relmse"], json.load(open("error.json"))["points"][0]["runs"][0]["relmse"]
 assert abs(a / b - 1) < 1e-6, (a, b)'
+exits 2 "bench error: adaptive without path" error --methods adaptive
 exits 2 "bench error: no samples" error --spp 4,
 exits 2 "bench error: a plot that is no picture" error -o plot.txt
 exits 2 "bench error: a reference of another size" "$facet" bench error a.obj -r 8x8 --spp 1 --reference ref.pfm
