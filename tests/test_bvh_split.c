@@ -139,7 +139,7 @@ static void grove_plant(grove *g, shape s, arena *mem) {
   bvh of = {.positions = s.positions,
             .index = s.index,
             .triangle_count = s.triangles};
-  bvh_split_build(&g->split, &of, INFINITY, mem, NULL);
+  bvh_split_build(&g->split, &of, (double)INFINITY, mem, NULL);
   bvh_build(&g->plain, s.positions, s.index, s.triangles, BVH_COARSE, mem,
             NULL);
   wide_tree_build(&g->wide, &g->split, mem, NULL);
@@ -379,7 +379,7 @@ static void threads_do_not_matter(void **unused) {
       bvh of = {.positions = s[k].positions,
                 .index = s[k].index,
                 .triangle_count = s[k].triangles};
-      bvh_split_build(&b[j], &of, INFINITY, &mem, p);
+      bvh_split_build(&b[j], &of, (double)INFINITY, &mem, p);
       pool_free(p);
     }
     check_tree(&b[0]);
