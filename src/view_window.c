@@ -50,11 +50,12 @@ struct view_window {
   glfw_api glfw;
   GLFWwindow *window;
   gl *g;
-  int width, height;            // of the pictures
-  GLuint texture, framebuffer;  // where a picture lies before it is shown
-  bool down[VIEW_KEY_COUNT];    // when somebody last asked
-  double x, y;                  // of the mouse at that time
-  bool caught;                  // the pointer has jumped to its cage
+  int width, height;              // of the pictures
+  GLuint texture, framebuffer;    // where a picture lies before it is shown
+  int shown_width, shown_height;  // of the window when it was
+  bool down[VIEW_KEY_COUNT];      // when somebody last asked
+  double x, y;                    // of the mouse at that time
+  bool caught;                    // the pointer has jumped to its cage
 };
 
 // A key by its number in GLFW.
@@ -113,7 +114,6 @@ static bool make_window(view_window *w, const char *title, error *err) {
   api->WindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   api->WindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   api->WindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  api->WindowHint(GLFW_RESIZABLE, GLFW_FALSE);
   w->window = api->CreateWindow(w->width, w->height, title, NULL, NULL);
   if (w->window == NULL)
     return fail_glfw(api,
@@ -197,6 +197,35 @@ static view_event mouse_event(view_window *w) {
   return e;
 }
 
+// The picture in the texture, as large as fits into the window, in its middle.
+static void present(view_window *w) {
+  const gl_api *api = gl_functions(w->g);
+  int width, height;
+  w->glfw.GetFramebufferSize(w->window, &width, &height);
+  w->shown_width = width, w->shown_height = height;
+  long long across = (long long)width * w->height;
+  long long down = (long long)height * w->width;
+  int wide = across <= down ? width : (int)(down / w->height);
+  int high = across <= down ? (int)(across / w->width) : height;
+  int x = (width - wide) / 2, y = (height - high) / 2;
+  api->BindFramebuffer(GL_READ_FRAMEBUFFER, w->framebuffer);
+  api->BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  api->ClearColor(0, 0, 0, 1);
+  api->Clear(GL_COLOR_BUFFER_BIT);
+  // Row 0 is on top here and at the bottom there.
+  api->BlitFramebuffer(0, 0, w->width, w->height, x, y + high, x + wide, y,
+                       GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  w->glfw.SwapBuffers(w->window);
+}
+
+// A window of another size shows the last picture anew.
+static void present_again(view_window *w) {
+  int width, height;
+  w->glfw.GetFramebufferSize(w->window, &width, &height);
+  if (w->shown_width == 0) return;  // nothing was shown yet
+  if (width != w->shown_width || height != w->shown_height) present(w);
+}
+
 size_t view_window_poll(view_window *w, double seconds,
                         view_event events[VIEW_WINDOW_EVENTS]) {
   if (seconds > 0)
@@ -212,6 +241,7 @@ size_t view_window_poll(view_window *w, double seconds,
           .kind = VIEW_EVENT_KEY, .key = (view_key)key, .down = down[key]};
     w->down[key] = down[key];
   }
+  present_again(w);
   view_event moved = mouse_event(w);
   if (moved.dx != 0 || moved.dy != 0) events[n++] = moved;
   return n;
@@ -219,19 +249,12 @@ size_t view_window_poll(view_window *w, double seconds,
 
 void view_window_show(view_window *w, const unsigned char *rgb) {
   const gl_api *api = gl_functions(w->g);
-  int width, height;
-  w->glfw.GetFramebufferSize(w->window, &width, &height);
   api->Disable(GL_SCISSOR_TEST);
   api->BindTexture(GL_TEXTURE_2D, w->texture);
   api->PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   api->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, w->width, w->height, GL_RGB,
                      GL_UNSIGNED_BYTE, rgb);
-  api->BindFramebuffer(GL_READ_FRAMEBUFFER, w->framebuffer);
-  api->BindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-  // Row 0 is on top here and at the bottom there.
-  api->BlitFramebuffer(0, 0, w->width, w->height, 0, height, width, 0,
-                       GL_COLOR_BUFFER_BIT, GL_LINEAR);
-  w->glfw.SwapBuffers(w->window);
+  present(w);
 }
 
 void view_window_title(view_window *w, const char *title) {

@@ -27,7 +27,8 @@ enum { VIEW_WINDOW_EVENTS = VIEW_KEY_COUNT + 1 };
 size_t view_window_poll(view_window *w, double seconds,
                         view_event events[VIEW_WINDOW_EVENTS]);
 
-// Show width x height pixels of sRGB bytes, RGB, row 0 on top.
+// Show width x height pixels of sRGB bytes, RGB, row 0 on top: as large as fits
+// into the window, which may have been made another size.
 void view_window_show(view_window *w, const unsigned char *rgb);
 
 void view_window_title(view_window *w, const char *title);

@@ -196,7 +196,19 @@ window() {
   save
   xdotool key Shift_L; sleep 0.5
   save
-  xdotool key Shift_L; xdotool key space
+  xdotool key Shift_L; sleep 0.3
+  save
+  for key in s a d q z; do # each way moves the picture
+    xdotool keydown $key; sleep 0.4; xdotool keyup $key; sleep 0.2
+    save
+  done
+  for key in 2 4 1 3 0; do # each look is another
+    xdotool key $key; xdotool key $key; xdotool key $key; sleep 0.2
+    save
+  done
+  xdotool windowsize "$w" 400 200; sleep 0.5 # and the rest goes on
+
+  xdotool key space
   for _ in $(seq 100); do
     xdotool getwindowname "$w" | grep -q "samples a pixel" && break
     sleep 0.1
@@ -216,11 +228,13 @@ import json, subprocess
 i = json.loads(subprocess.check_output(["$facet", "info", "--json", "materials-1.png"]))
 assert i["width"] == 160 and min(i["max"]) > 0.3, i
 P
-  for pair in "1 2 W flies" "2 3 the mouse turns" "3 4 Shift frosts" "3 5 Space traces paths"; do
+  for pair in "1 2 W flies" "2 3 the mouse turns" "3 4 Shift frosts" "5 6 S flies" \
+    "6 7 A flies" "7 8 D flies" "8 9 Q flies" "9 10 Z flies" "10 11 2 shows" \
+    "11 12 4 shows" "12 13 1 shows" "13 14 3 shows" "14 15 0 shows" "15 16 Space traces paths"; do
     set -- $pair
     a=$1 b=$2
     shift 2
-    exits 1 "in the window $*" "$facet" compare --fail 0.01 materials-$a.png materials-$b.png
+    exits 1 "in the window $*" "$facet" compare --fail 0.002 materials-$a.png materials-$b.png
   done
   ok "the title counts samples" grep -q "samples a pixel" title.txt
   ok "p prints a command" grep -q "^facet render .*--engine=path" p.txt
