@@ -12,20 +12,23 @@ float at_curved;
 bool at_front;
 int at_material;
 
+// So many edges of a triangle is a place away from it at most.
+#define AT_FARTHEST 8.0
+
 // What is a and b and c at the corners, at the barycentric place uv.
 vec3 at_between(vec3 a, vec3 b, vec3 c, vec2 uv) {
   return a + uv.x * (b - a) + uv.y * (c - a);
 }
 
-// The place in the triangle of corners a, b, c that the eye sees along d, or
-// next to it where only another sample of the pixel sees the triangle.
+// The place in the triangle of corners a, b, c that the eye sees along d; next to
+// it where only another sample of the pixel sees the triangle, and not far from
+// it even where that is seen from its edge.
 vec2 at_place(vec3 a, vec3 b, vec3 c, vec3 d) {
   vec3 s = u_eye - a, q = cross(s, b - a), h = cross(d, c - a);
   float det = dot(b - a, h);
   vec2 uv = vec2(dot(s, h), dot(d, q)) / det;
-  if (!(abs(det) > 0.0)) uv = vec2(1.0 / 3.0);
-  uv = max(uv, vec2(0.0));
-  return uv / max(1.0, uv.x + uv.y);
+  if (!(abs(det) > 0.0)) return vec2(1.0 / 3.0);
+  return clamp(uv, -AT_FARTHEST, AT_FARTHEST);
 }
 
 vec4 at_texel(int vertex, int k) {
