@@ -6,8 +6,8 @@
 
 const char *ibl_method_name(ibl_method how) {
   static const char *const names[IBL_METHODS] = {
-      "brute force", "uniform samples", "lobe samples", "lobe samples, mips",
-      "order 2"};
+      "brute force",        "uniform samples", "lobe samples",
+      "lobe samples, mips", "tree of blocks",  "order 2"};
   return names[how];
 }
 
@@ -22,6 +22,36 @@ static image half_image(const image *im, arena *mem) {
       out.pixels[y * (size_t)out.width + x] = vec3_scale(sum, 0.25f);
     }
   return out;
+}
+
+// The map at half the size: sums of four texels.
+static image half_sum(const image *im, arena *mem) {
+  image out = half_image(im, mem);
+  for (size_t i = 0; i < (size_t)out.width * (size_t)out.height; i++)
+    out.pixels[i] = vec3_scale(out.pixels[i], 4);
+  return out;
+}
+
+// Radiance times solid angle, and directions weighed by it; then sums of four
+// of those as long as halves are whole.
+static void make_powers(ibl_methods *out, const image *map, arena *mem) {
+  image all = image_new(mem, map->width, map->height);
+  image from = image_new(mem, map->width, map->height);
+  for (int y = 0; y < map->height; y++)
+    for (int x = 0; x < map->width; x++) {
+      size_t at = (size_t)y * (size_t)map->width + (size_t)x;
+      vec2 uv = {((float)x + 0.5f) / (float)map->width,
+                 ((float)y + 0.5f) / (float)map->height};
+      vec3 p = vec3_scale(map->pixels[at], ibl_source_solid_angle(map, y));
+      all.pixels[at] = p;
+      from.pixels[at] = vec3_scale(env_direction(uv), p.x + p.y + p.z);
+    }
+  out->power[0] = all, out->middle[0] = from;
+  out->powers = 1;
+  while (out->powers < IBL_MOST_MIPS && all.height % 2 == 0 && all.height > 4) {
+    out->power[out->powers] = all = half_sum(&all, mem);
+    out->middle[out->powers++] = from = half_sum(&from, mem);
+  }
 }
 
 void ibl_methods_open(ibl_methods *out, const env *e, arena *mem,
@@ -42,6 +72,7 @@ void ibl_methods_open(ibl_methods *out, const env *e, arena *mem,
     out->mip[out->mips] = half_image(&out->mip[out->mips - 1], mem);
     out->mips++;
   }
+  make_powers(out, &s.map, mem);
   wave_analyse(&out->spectrum, &s.map, mem, threads);
 }
 
@@ -131,6 +162,52 @@ static vec3 lobe_samples(const ibl_methods *m, const lobe *l, vec3 d,
   return vec3_scale(sum, scale);
 }
 
+// A block is taken whole when it is smaller than this share of the lobe's scale
+// where it lies.
+#define TREE_SHARE 0.25f
+
+// A block of some level.
+typedef struct tree_block {
+  int level, x, y;
+} tree_block;
+
+// Four blocks wait for each that is opened.
+enum { TREE_STACK = 4 * IBL_MOST_MIPS };
+
+// Add a block, or put its quarters on the stack; returns how many there are.
+static int visit_block(vec3 *sum, tree_block *stack, int n,
+                       const ibl_methods *m, vec3 d) {
+  tree_block b = stack[--n];
+  const image *p = &m->power[b.level];
+  size_t at = (size_t)b.y * (size_t)p->width + (size_t)b.x;
+  vec3 w = vec3_unit(m->middle[b.level].pixels[at]), apart = vec3_sub(w, d);
+  if (!(vec3_peak(p->pixels[at]) > 0)) return n;
+  float t = 0.25f * vec3_dot(apart, apart), a = m->by.alpha;
+  float scale = a == 0 ? 1 : 2 * sqrtf(a * a + t);
+  if (b.level == 0 || PI / (float)p->height <= TREE_SHARE * scale) {
+    *sum = vec3_mad(*sum, lobe_weight(&m->by, d, w), p->pixels[at]);
+    return n;
+  }
+  for (int i = 0; i < 4; i++)
+    stack[n++] = (tree_block){b.level - 1, 2 * b.x + i % 2, 2 * b.y + i / 2};
+  return n;
+}
+
+// From the coarsest level down.
+static vec3 tree_of_blocks(const ibl_methods *m, vec3 d) {
+  vec3 sum = {0, 0, 0};
+  tree_block stack[TREE_STACK];
+  const image *top = &m->power[m->powers - 1];
+  for (int y = 0; y < top->height; y++)
+    for (int x = 0; x < top->width; x++) {
+      int n = 0;
+      stack[n++] = (tree_block){m->powers - 1, x, y};
+      while (n > 0)
+        n = visit_block(&sum, stack, n, m, d);
+    }
+  return sum;
+}
+
 // The nine functions of order 0 to 2: P_lm(cos theta) e^(i m phi) of unit norm,
 // where phi = 2 pi u is 0 at +Z and grows towards -X.  Source: Ramamoorthi and
 // Hanrahan 2001.
@@ -167,6 +244,7 @@ vec3 ibl_method_at(const ibl_methods *m, ibl_method how, vec3 d) {
   case IBL_UNIFORM: return uniform_samples(m, &m->by, d);
   case IBL_SAMPLED: return lobe_samples(m, &m->by, d, false);
   case IBL_MIPPED: return lobe_samples(m, &m->by, d, true);
+  case IBL_TREE: return tree_of_blocks(m, d);
   default: return order_2(m, d);
   }
 }

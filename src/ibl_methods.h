@@ -14,6 +14,7 @@ typedef enum ibl_method {
   IBL_UNIFORM,      // directions all over the hemisphere
   IBL_SAMPLED,      // directions by the lobe's own density
   IBL_MIPPED,       // the same, each reading a mean over its share
+  IBL_TREE,         // blocks of texels, as large as the lobe allows
   IBL_ORDER_2,      // spherical harmonics up to order 2
   IBL_METHODS
 } ibl_method;
@@ -21,11 +22,14 @@ typedef enum ibl_method {
 // Directions of the sampling methods.
 enum { IBL_METHOD_SAMPLES = 1024, IBL_MOST_MIPS = 12 };
 
-// What they read: the map with its suns, its means over 2 x 2, 4 x 4, ...
-// texels, and its spectrum.
+// What they read: the map with its suns, its means and its sums over 2 x 2, 4 x
+// 4, ... texels, and its spectrum.
 typedef struct ibl_methods {
   image mip[IBL_MOST_MIPS];
   int mips;
+  image power[IBL_MOST_MIPS];  // sums of radiance times solid angle, as blocks
+  image middle[IBL_MOST_MIPS];  // and where that comes from: no unit vectors
+  int powers;
   wave spectrum;
   lobe by;      // what light is weighed by: ibl_methods_aim
   double k[3];  // its spectrum up to order 2

@@ -125,12 +125,13 @@ static vec3 probe(int i, int n, float width) {
   return i % 2 == 0 ? d : vec3_unit(vec3_mad(axis, width, d));
 }
 
-// The largest difference to the sum over all texels, over the largest value.
+// The largest difference to the sum over all texels, over the largest value;
+// that of the tree of blocks is no more than a fiftieth.
 static double distance_to_sum(const ibl *b, ibl_methods *m, float roughness,
                               pbr_model model) {
   int n = getenv("FACET_QUICK") != NULL ? 4 : 24;
   bool matt = roughness < 0;
-  double worst = 0, peak = 0;
+  double worst = 0, peak = 0, tree = 0;
   ibl_methods_aim(m, matt ? lobe_cosine() : lobe_rough(model, roughness));
   for (int i = 0; i < n; i++) {
     vec3 d = probe(i, n, matt ? 1 : 2 * roughness * roughness);
@@ -139,7 +140,10 @@ static double distance_to_sum(const ibl *b, ibl_methods *m, float roughness,
     assert_true(vec3_finite(got) && got.x >= 0);
     worst = fmax(worst, fabs((double)got.x - want));
     peak = fmax(peak, want);
+    double blocks = (double)ibl_method_at(m, IBL_TREE, d).x;
+    tree = fmax(tree, fabs(blocks - want));
   }
+  if (!(tree < 2e-2 * peak)) fail_msg("tree of blocks: %g", tree / peak);
   return worst / peak;
 }
 
