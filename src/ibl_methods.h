@@ -27,7 +27,7 @@ enum { IBL_METHOD_SAMPLES = 1024, IBL_MOST_MIPS = 12 };
 typedef struct ibl_methods {
   image mip[IBL_MOST_MIPS];
   int mips;
-  image power[IBL_MOST_MIPS];  // sums of radiance times solid angle, as blocks
+  image power[IBL_MOST_MIPS];   // sums of radiance times solid angle, as blocks
   image middle[IBL_MOST_MIPS];  // and where that comes from: no unit vectors
   int powers;
   wave spectrum;
