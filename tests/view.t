@@ -202,10 +202,12 @@ window() {
     xdotool keydown $key; sleep 0.4; xdotool keyup $key; sleep 0.2
     save
   done
-  for key in 2 4 1 3 0; do # each look is another
+  for key in 2 4 1 3; do # each look is another
     xdotool key $key; xdotool key $key; xdotool key $key; sleep 0.2
     save
   done
+  xdotool key 0; sleep 0.2
+  save
   xdotool windowsize "$w" 400 200; sleep 0.5 # and the rest goes on
 
   xdotool key space
