@@ -1,5 +1,6 @@
 // figures.c — the pictures of chapter 12, and the numbers its text quotes.
 
+#include "bvh_split.h"
 #include "camera.h"
 #include "num.h"
 #include "picture.h"
@@ -121,6 +122,80 @@ static void draw_heats(output *o, const bvh *b, const wide_tree *w) {
   publish(o, "heat", im);
   printf("nodes a pixel: binary %.1f, wide %.1f\n", sum[0] / (236 * 236),
          sum[1] / (236 * 236));
+}
+
+// ---- Triangles that are cut ----
+
+// A beam of three sides from a to b.
+static void add_beam(rock *m, vec3 a, vec3 b) {
+  vec3 d = vec3_sub(b, a);
+  vec3 u = vec3_unit(vec3_cross(d, (vec3){d.y, d.z, d.x}));
+  vec3 v = vec3_cross(vec3_unit(d), u);
+  uint32_t first = m->vertices;
+  for (int i = 0; i < 3; i++) {
+    vec2 c = num_circle((float)i / 3);
+    vec3 off = vec3_mad(vec3_scale(u, 0.012f * c.x), 0.012f * c.y, v);
+    m->p[m->vertices++] = vec3_add(a, off);
+    m->p[m->vertices++] = vec3_add(b, off);
+  }
+  for (uint32_t i = 0; i < 3; i++) {
+    uint32_t p = first + 2 * i, q = first + 2 * ((i + 1) % 3);
+    const uint32_t corner[6] = {p, q, q + 1, p, q + 1, p + 1};
+    for (int k = 0; k < 6; k++)
+      m->index[3 * (size_t)m->triangles + (size_t)k] = corner[k];
+    m->triangles += 2;
+  }
+}
+
+// A rock in a tangle of beams, and what its trees cost each pixel: triangles
+// whole, and cut.  White is 120 nodes.
+static void draw_cuts(output *o) {
+  enum { BEAMS = 400 };
+  rock small = rock_of(&o->mem, 40);
+  rock m = {ARENA_NEW(&o->mem, vec3, small.vertices + 6 * BEAMS),
+            ARENA_NEW(&o->mem, uint32_t, 3 * (small.triangles + 6 * BEAMS)),
+            small.vertices, small.triangles};
+  for (uint32_t i = 0; i < small.vertices; i++)
+    m.p[i] = vec3_scale(small.p[i], 0.7f);
+  for (uint32_t i = 0; i < 3 * small.triangles; i++)
+    m.index[i] = small.index[i];
+  for (int i = 0; i < BEAMS; i++) {
+    float x[6];
+    for (int k = 0; k < 6; k++)
+      x[k] = 1.5f * wave(0.618034f * (float)(i * 6 + k) * (float)(k + 1));
+    add_beam(&m, (vec3){x[0], x[1], x[2]}, (vec3){x[3], x[4], x[5]});
+  }
+  bvh of = {.positions = m.p, .index = m.index, .triangle_count = m.triangles};
+  bvh b[2];
+  wide_tree w[2];
+  for (int k = 0; k < 2; k++) {
+    bvh_split_build(&b[k], &of, k ? HUGE_VAL : 0, &o->mem, o->threads);
+    wide_tree_build(&w[k], &b[k], &o->mem, o->threads);
+  }
+  const camera c = {NULL, {1.4f, 1.6f, 4.2f}, {0, 0, 0}, {0, 1, 0}, 36};
+  camera_view view;
+  error err;
+  if (!camera_view_of(&view, &c, 236, 236, &err)) exit(3);
+  image im = image_new(&o->mem, 480, 236);
+  double sum[2] = {0};
+  for (int i = 0; i < 480 * 236; i++)
+    im.pixels[i] = (vec3){1, 1, 1};
+  for (int i = 0; i < 2 * 236 * 236; i++) {
+    int at = i / 2, k = i % 2;
+    ray r =
+        camera_ray(&view, (float)(at % 236) + 0.5f, (float)(at / 236) + 0.5f);
+    hit h;
+    bvh_visits v = {0};
+    wide_level_at(0)->closest_counted(&w[k], &r, &h, &v);
+    sum[k] += v.nodes;
+    im.pixels[at / 236 * 480 + 244 * k + at % 236] =
+        heat_color((float)v.nodes / 120);
+  }
+  publish(o, "cuts", im);
+  printf("tangle of %u triangles: nodes a pixel %.1f -> %.1f, cost %.1f -> "
+         "%.1f, %u parts more\n",
+         m.triangles, sum[0] / (236 * 236), sum[1] / (236 * 236), b[0].cost,
+         b[1].cost, b[1].refs - b[1].kept);
 }
 
 // ---- What a fused multiply-add does ----
@@ -333,6 +408,42 @@ static void print_visits(output *o, const rock *r, const bvh *b,
          (double)wide_tree_bytes(w) / r->triangles);
 }
 
+// Nodes and triangles that a ray visits in rocks ten times as fine each time.
+static void print_growth(output *o) {
+  static const uint32_t cells[4] = {13, 41, 129, 408};
+  for (int i = 0; i < 4; i++) {
+    arena mem = {0};
+    rock r = rock_of(&mem, cells[i]);
+    bvh b;
+    wide_tree w;
+    bvh_build(&b, r.p, r.index, r.triangles, BVH_COARSE, &mem, o->threads);
+    wide_tree_build(&w, &b, &mem, o->threads);
+    mesh m = {.positions = r.p,
+              .position_count = r.vertices,
+              .position_index = r.index,
+              .triangle_count = r.triangles};
+    ray_source from = {
+        .m = &m, .tree = wide_tracer(&w), .size = 200, .limit = 40000};
+    printf("%u triangles:", r.triangles);
+    for (int k = RAYS_PRIMARY; k <= RAYS_BOUNCE; k += RAYS_BOUNCE) {
+      ray_set s;
+      double n = 0, t = 0;
+      rays_generate(&s, (ray_kind)k, &from, &mem);
+      for (size_t j = 0; j < s.count; j++) {
+        hit h;
+        bvh_visits v = {0};
+        wide_level_at(0)->closest_counted(&w, &s.rays[j], &h, &v);
+        n += v.nodes;
+        t += v.triangles;
+      }
+      printf(" %s %.1f nodes, %.1f triangles;", rays_kind_name((ray_kind)k),
+             n / (double)s.count, t / (double)s.count);
+    }
+    printf("\n");
+    arena_free(&mem);
+  }
+}
+
 int main(int argc, char **argv) {
   output o = {.folder = argc > 1 ? argv[1] : "."};
   o.threads = pool_new(&o.mem, pool_default_threads());
@@ -343,9 +454,11 @@ int main(int argc, char **argv) {
   wide_tree_build(&w, &b, &o.mem, o.threads);
   draw_heats(&o, &b, &w);
   draw_planes(&o, &b, wide_costs_of(&b, &o.mem, o.threads));
+  draw_cuts(&o);
   draw_leaks(&o);
   draw_waiting(&o);
   print_visits(&o, &m, &b, &w);
+  print_growth(&o);
   pool_free(o.threads);
   arena_free(&o.mem);
   return 0;
