@@ -215,8 +215,10 @@ def main():
     parser.add_argument("--variant", default="llvm_ad_rgb")
     options = parser.parse_args()
     mi.set_variant(options.variant)
-    for suffix in (".scene", ".obj", ".mtl"):
+    for suffix in (".obj", ".mtl"):
         shutil.copy(ROOT / "scenes" / ("cornell-balls" + suffix), options.folder)
+    scene = (ROOT / "scenes" / "cornell-balls.scene").read_text()
+    (options.folder / "cornell-balls.scene").write_text(scene.replace("400 400", "256 256"))
     for name in options.scenes:
         compare(name, options)
 
