@@ -9,7 +9,7 @@
 #include "vertex.h"
 
 // A path whose throughput falls below this plays roulette for it.
-#define PLAY_BELOW 0.5f
+#define PLAY_BELOW 0.25f
 
 // From this segment on even a path that lost nothing is ended with probability
 // 1 - ENDLESS_SURVIVAL.
