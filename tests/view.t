@@ -1,5 +1,5 @@
 #!/bin/bash
-# facet view: scripts replayed without a window, and one real window.
+# facet view: scripts replayed without a window (tests/window.t opens one).
 . tests/tap.sh
 scene=$root/scenes/materials.scene
 cd "$T" || exit 1
@@ -156,90 +156,4 @@ says "--script" "that says what to do"
 mkdir fake && echo none >fake/libglfw.so.3 && cp fake/libglfw.so.3 fake/libglfw.so
 exits 5 "no library" env -u DISPLAY LD_LIBRARY_PATH="$T/fake" "$facet" view -q "$scene"
 says "libglfw3" "that names the package"
-
-# One window on a screen of its own.
-window() {
-  for tool in Xvfb xdotool; do
-    command -v $tool >/dev/null || { skip "a window" "no $tool"; return; }
-  done
-  if grep -q "cannot load" err && ! ldconfig -p | grep -q libglfw.so.3; then
-    skip "a window" "no libglfw3"; return
-  fi
-  Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 3>display 2>xvfb.log &
-  server=$!
-  for _ in $(seq 100); do [ -s display ] && break; sleep 0.1; done
-  DISPLAY=:$(cat display)
-  export DISPLAY
-  "$facet" view "$scene" -r 160x100 2>said.txt >p.txt &
-  viewer=$!
-  for _ in $(seq 100); do
-    w=$(xdotool search --name facet 2>/dev/null | head -n 1)
-    [ -n "$w" ] && break
-    sleep 0.1
-  done
-  xdotool windowfocus "$w"
-  sleep 1
-  saved=0
-  save() { # once more, and wait for the file
-    saved=$((saved + 1))
-    xdotool key F12
-    for _ in $(seq 100); do
-      grep -q "materials-$saved.png: written" said.txt && break
-      sleep 0.1
-    done
-  }
-  save
-  xdotool keydown w; sleep 0.7; xdotool keyup w; sleep 0.3
-  save
-  xdotool mousemove_relative 2 1; sleep 0.3
-  xdotool mousemove_relative 60 10; sleep 0.3
-  save
-  xdotool key Shift_L; sleep 0.5
-  save
-  xdotool key Shift_L; sleep 0.3
-  save
-  for key in s a d q z; do # each way moves the picture
-    xdotool keydown $key; sleep 0.4; xdotool keyup $key; sleep 0.2
-    save
-  done
-  for key in 2 4 1 3; do # each look is another
-    xdotool key $key; xdotool key $key; xdotool key $key; sleep 0.2
-    save
-  done
-  xdotool key 0; sleep 0.2
-  save
-  xdotool windowsize "$w" 400 200; sleep 0.5 # and the rest goes on
-
-  xdotool key space
-  for _ in $(seq 100); do
-    xdotool getwindowname "$w" | grep -q "samples a pixel" && break
-    sleep 0.1
-  done
-  xdotool getwindowname "$w" >title.txt
-  save
-  xdotool key p; sleep 0.3
-  xdotool key Escape
-  for _ in $(seq 50); do kill -0 $viewer 2>/dev/null || break; sleep 0.1; done
-  wait $viewer
-  code=$?
-  kill $server
-  if [ $code = 0 ]; then pass "a window opens, and Escape closes it"
-  else cp said.txt err; fail "a window opens, and Escape closes it (exit $code)"; fi
-  ok "F12 saves a picture that is not black" python3 - <<P
-import json, subprocess
-i = json.loads(subprocess.check_output(["$facet", "info", "--json", "materials-1.png"]))
-assert i["width"] == 160 and min(i["max"]) > 0.3, i
-P
-  for pair in "1 2 W flies" "2 3 the mouse turns" "3 4 Shift frosts" "5 6 S flies" \
-    "6 7 A flies" "7 8 D flies" "8 9 Q flies" "9 10 Z flies" "10 11 2 shows" \
-    "11 12 4 shows" "12 13 1 shows" "13 14 3 shows" "14 15 0 shows" "15 16 Space traces paths"; do
-    set -- $pair
-    a=$1 b=$2
-    shift 2
-    exits 1 "in the window $*" "$facet" compare --fail 0.002 materials-$a.png materials-$b.png
-  done
-  ok "the title counts samples" grep -q "samples a pixel" title.txt
-  ok "p prints a command" grep -q "^facet render .*--engine=path" p.txt
-}
-window
 finish
