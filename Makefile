@@ -7,7 +7,9 @@
 # make weave         refresh the listings of the chapters from the source
 # make book          the HTML book, build/book/index.html
 # make format        lay out the source with clang-format 14
-# make install       PREFIX (/usr/local), DESTDIR
+# make install       program, manual, completions, scenes: PREFIX (/usr/local), DESTDIR
+# make uninstall     remove them again
+# make deb           build/deb/*.deb, by Debian's tools (needs debhelper)
 # make clean         remove build/
 
 CC      ?= cc
@@ -61,7 +63,7 @@ COMMAND   := json tonemap progress option_id option_table option cmd_shared cmd_
              cmd_output cmd_tree cmd_shot cmd_raster cmd_render cmd_view_say cmd_view cmd_info_scene \
              cmd_info cmd_compare cmd_bench cmd_bench_raster cmd_ibl cmd_bench_ibl \
              cmd_child cmd_error_run cmd_bench_error \
-             cmd_help main
+             help_text cmd_manual cmd_completion cmd_help main
 MODULES   := $(LIBRARY) $(COMMAND)
 CHAPTER_17 := $(filter-out main,$(MODULES))
 
@@ -79,11 +81,11 @@ build/facet: $(B)/facet
 endif
 
 $(B)/facet: $(call obj,$(MODULES))
-	$(CC) $(FLAGS) $(CFLAGS) $^ $(LIBS) -o $@
+	$(CC) $(FLAGS) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) -o $@
 
 $(B)/%.o: %.c Makefile
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) $(CFLAGS) $(LOOPS) -MMD -MP -c $< -o $@
+	$(CC) $(CPPFLAGS) $(FLAGS) $(CFLAGS) $(LOOPS) -MMD -MP -c $< -o $@
 
 # One kernel (src/wide_kernel.h) for several sets of instructions; the program
 # asks the processor which it has.
@@ -170,16 +172,42 @@ pandoc = pandoc -f gfm+footnotes -t html5 --mathml -s \
 format:
 	clang-format-14 -i src/*.[ch] tests/*.c chapters/*/figures.c
 
+# The manual pages are those that help can print.
+ROOT     = $(DESTDIR)$(PREFIX)
+BASHDIR ?= $(PREFIX)/share/bash-completion/completions
+ZSHDIR  ?= $(PREFIX)/share/zsh/site-functions
+FISHDIR ?= $(PREFIX)/share/fish/vendor_completions.d
+COMMANDS = build/facet help | sed -n 's/^  facet \(\([a-z]\+ \)\+\)[A-Z[].*/\1/p'
 install: all
-	install -D build/facet $(DESTDIR)$(PREFIX)/bin/facet
-	install -d $(DESTDIR)$(PREFIX)/share/facet/scenes
-	cp scenes/*.* $(DESTDIR)$(PREFIX)/share/facet/scenes/
-	install -d $(DESTDIR)$(PREFIX)/share/man/man1
-	build/facet help --man >$(DESTDIR)$(PREFIX)/share/man/man1/facet.1
+	install -D build/facet "$(ROOT)/bin/facet"
+	install -d "$(ROOT)/share/facet/scenes" "$(ROOT)/share/man/man1" \
+	  "$(DESTDIR)$(BASHDIR)" "$(DESTDIR)$(ZSHDIR)" "$(DESTDIR)$(FISHDIR)"
+	install -m 644 scenes/*.* "$(ROOT)/share/facet/scenes"
+	build/facet help --man >"$(ROOT)/share/man/man1/facet.1"
+	$(COMMANDS) | while read -r c; do build/facet help --man $$c \
+	  >"$(ROOT)/share/man/man1/facet-$$(echo $$c | tr ' ' -).1" || exit; done
+	build/facet help --completion bash >"$(DESTDIR)$(BASHDIR)/facet"
+	build/facet help --completion zsh >"$(DESTDIR)$(ZSHDIR)/_facet"
+	build/facet help --completion fish >"$(DESTDIR)$(FISHDIR)/facet.fish"
+
+uninstall: all
+	$(COMMANDS) | while read -r c; do \
+	  rm -f "$(ROOT)/share/man/man1/facet-$$(echo $$c | tr ' ' -).1"; done
+	rm -f "$(ROOT)/bin/facet" "$(ROOT)/share/man/man1/facet.1" \
+	  "$(DESTDIR)$(BASHDIR)/facet" "$(DESTDIR)$(ZSHDIR)/_facet" \
+	  "$(DESTDIR)$(FISHDIR)/facet.fish"
+	rm -rf "$(ROOT)/share/facet"
+
+deb:
+	rm -rf build/deb
+	mkdir -p build/deb/facet
+	tar -c --exclude=./build --exclude=./.git . | tar -x -C build/deb/facet
+	cd build/deb/facet && dpkg-buildpackage -us -uc -b
+	rm -rf build/deb/facet
 
 clean:
 	rm -rf build
 
-.PHONY: all figures weave unit build-tests test bench book format install clean \
+.PHONY: all figures weave unit build-tests test bench book format install uninstall deb clean \
         $(foreach n,$(CHAPTERS),draw-$(n) chapter-$(n) bless-$(n))
 -include $(shell find build -name '*.d' 2>/dev/null)

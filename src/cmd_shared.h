@@ -9,6 +9,11 @@
 
 #include "json.h"
 
+#ifndef FACET_VERSION
+// What --version prints.
+#define FACET_VERSION "0.1"
+#endif
+
 // Exit codes, a contract with scripts.
 enum {
   EXIT_DONE = 0,

@@ -8,11 +8,6 @@
 #include <signal.h>
 #include <string.h>
 
-#ifndef FACET_VERSION
-// What --version prints.
-#define FACET_VERSION "0.1"
-#endif
-
 // A command by its bit.
 static int run_command(const options *o) {
   switch (o->command->bit) {

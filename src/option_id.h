@@ -62,6 +62,7 @@ typedef enum option_id {
   OPT_FRAMES,
   OPT_CSV,
   OPT_MAN,
+  OPT_COMPLETION,
   OPT_THREADS,
   OPT_STRICT,
   OPT_JSON,

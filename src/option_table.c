@@ -278,7 +278,11 @@ const option option_table[OPTION_COUNT] = {
     [OPT_CSV] = {"csv", 0, CMD_BENCH_RASTER | CMD_BENCH_ERROR, OPTION_SWITCH,
                  .help = "print lines of comma-separated values"},
     [OPT_MAN] = {"man", 0, CMD_HELP, OPTION_SWITCH,
-                 .help = "print the manual page, for man -l -"},
+                 .help = "print the manual page of facet, or of the command, "
+                         "for man -l -"},
+    [OPT_COMPLETION] = {"completion", 0, CMD_HELP, OPTION_WORD, "bash|zsh|fish",
+                        .help = "print what lets this shell complete the "
+                                "command line"},
     [OPT_THREADS] =
         {"threads", 'j', CMD_ALL & ~(CMD_COMPARE | CMD_HELP), OPTION_WHOLE, "N",
          NULL, 1, 1024,

@@ -22,7 +22,7 @@ else echo "not ok 2 - chapters"; echo "# not in README.md:$bad"; fi
 
 if top=$(git ls-files 2>/dev/null) && [ -n "$top" ]; then
   top=$(echo "$top" | sed 's,/.*,,' | grep -v '^[.]' | LC_ALL=C sort -u | tr '\n' ' ')
-  want="Makefile README.md chapters scenes shaders src tests "
+  want="Makefile README.md chapters debian scenes shaders src tests "
   if [ "$top" = "$want" ]; then echo "ok 3 - top level"
   else echo "not ok 3 - top level"; echo "# $top"; fi
 else echo "ok 3 - top level # SKIP no git clone"
