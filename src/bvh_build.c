@@ -10,6 +10,8 @@
 #include "bvh_read.h"
 #include "clock.h"
 
+#include <string.h>
+
 // At most SMALL triangles, or 1 / TASKS of all, are a task; CHUNK of them are
 // binned or moved in one go.
 enum { TASKS = 64, SMALL = 2048, CHUNK = 4096 };
@@ -31,6 +33,13 @@ typedef struct level_chunk {
   sah_bins bins;
 } level_chunk;
 
+// A worker's memory: nodes of the task at hand, two a triangle, and those of
+// finished tasks, which are about two for three.
+typedef struct task_room {
+  bvh_node *nodes;
+  arena done;
+} task_room;
+
 // What the threads share during one build.
 typedef struct builder {
   bvh *out;
@@ -41,8 +50,9 @@ typedef struct builder {
   level_node *level, *next_level;
   level_chunk *chunks;
   bvh_task *tasks;
-  bvh_node *top, *room;  // nodes above the tasks, nodes of the tasks
-  uint32_t *offsets;     // where a task's nodes begin in the finished tree
+  bvh_node *top;      // nodes above the tasks
+  task_room *rooms;   // one a worker
+  uint32_t *offsets;  // where a task's nodes begin in the finished tree
   uint32_t level_count, chunk_count, task_count, top_count;
 } builder;
 
@@ -122,10 +132,7 @@ static void sort_part(builder *b, const bvh_part *p, uint32_t *next_count) {
     return;
   }
   b->tasks[b->task_count++] =
-      (bvh_task){.root = *p,
-                 .refs = b->refs,
-                 .method = b->method,
-                 .nodes = b->room + 2 * (size_t)p->begin};
+      (bvh_task){.root = *p, .refs = b->refs, .method = b->method};
 }
 
 // The bounds of the children of a parted node.
@@ -184,11 +191,11 @@ static void begin_level(builder *b) {
 
 // The top of the tree, down to the tasks.  A level has fewer than TASKS nodes,
 // since each has more than 1 / TASKS of the triangles.
-static void build_top(builder *b, const bvh_part *root, arena *scratch) {
+static void build_top(builder *b, const bvh_part *root, arena *refs,
+                      arena *scratch) {
   uint32_t n = root->end;
   b->small = n / TASKS > SMALL ? n / TASKS : SMALL;
-  b->spare = ARENA_NEW(scratch, sah_ref, n > b->small ? n : 0);
-  b->room = ARENA_NEW(scratch, bvh_node, 2 * (size_t)n);
+  b->spare = ARENA_NEW(refs, sah_ref, n > b->small ? n : 0);
   b->level = ARENA_NEW(scratch, level_node, TASKS);
   b->next_level = ARENA_NEW(scratch, level_node, TASKS);
   b->chunks =
@@ -209,10 +216,26 @@ static void build_top(builder *b, const bvh_part *root, arena *scratch) {
   }
 }
 
+// Build all below a task's root; then neither refs nor the room for nodes that
+// might have been are needed for it.
 static void run_task(void *context, size_t item, int worker) {
-  (void)worker;
   builder *b = context;
-  bvh_task_run(&b->tasks[item]);
+  bvh_task *t = &b->tasks[item];
+  task_room *room = &b->rooms[worker];
+  t->nodes = room->nodes;
+  bvh_task_run(t);
+  t->nodes = ARENA_NEW(&room->done, bvh_node, t->node_count);
+  memcpy(t->nodes, room->nodes, t->node_count * sizeof *t->nodes);
+  for (uint32_t i = t->root.begin; i < t->root.end; i++)
+    b->out->order[i] = t->refs[i].as.triangle;
+}
+
+static void make_rooms(builder *b, uint32_t n, arena *scratch) {
+  size_t workers = (size_t)pool_threads(b->threads);
+  b->rooms = ARENA_NEW(scratch, task_room, workers);
+  for (size_t i = 0; i < workers; i++)
+    b->rooms[i].nodes =
+        ARENA_NEW(scratch, bvh_node, 2 * (size_t)smaller(n, b->small));
 }
 
 // Node `from` of task k as a node of the finished tree: children move to
@@ -223,8 +246,8 @@ static bvh_node finished_node(const builder *b, size_t k, uint32_t from) {
   return n;
 }
 
-// Copy a task's nodes and triangle numbers to the finished tree; its root has
-// a place among the top's nodes.
+// Copy a task's nodes to the finished tree; its root has a place among the
+// top's nodes.
 static void copy_task(void *context, size_t item, int worker) {
   (void)worker;
   builder *b = context;
@@ -233,14 +256,16 @@ static void copy_task(void *context, size_t item, int worker) {
   to[t->root.node] = finished_node(b, item, 0);
   for (uint32_t i = 1; i < t->node_count; i++)
     to[b->offsets[item] + i - 1] = finished_node(b, item, i);
-  for (uint32_t i = t->root.begin; i < t->root.end; i++)
-    b->out->order[i] = t->refs[i].as.triangle;
 }
 
-// Below the tasks, and all of it in one array.
-static void build_tasks(builder *b, arena *mem, arena *scratch) {
+// Below the tasks, and all of it in one array: the refs, the most of what a
+// build needs, go before it comes.
+static void build_tasks(builder *b, arena *mem, arena *refs, arena *scratch) {
   bvh *out = b->out;
+  out->order = ARENA_NEW(mem, uint32_t, out->kept);
+  make_rooms(b, out->kept, scratch);
   pool_run(b->threads, b->task_count, run_task, b);
+  arena_free(refs);
   b->offsets = ARENA_NEW(scratch, uint32_t, b->task_count);
   uint32_t count = b->top_count;
   for (uint32_t k = 0; k < b->task_count; k++) {
@@ -251,10 +276,11 @@ static void build_tasks(builder *b, arena *mem, arena *scratch) {
   }
   out->node_count = count;
   out->nodes = ARENA_NEW(mem, bvh_node, count);
-  out->order = ARENA_NEW(mem, uint32_t, out->kept);
   for (uint32_t i = 0; i < b->top_count; i++)
     out->nodes[i] = b->top[i];
   pool_run(b->threads, b->task_count, copy_task, b);
+  for (int i = 0; i < pool_threads(b->threads); i++)
+    arena_free(&b->rooms[i].done);
 }
 
 void bvh_build(bvh *out, const vec3 *positions, const uint32_t *index,
@@ -263,14 +289,15 @@ void bvh_build(bvh *out, const vec3 *positions, const uint32_t *index,
   double start = clock_seconds();
   *out = (bvh){
       .positions = positions, .index = index, .triangle_count = triangle_count};
-  arena scratch = {0};
+  arena refs = {0}, scratch = {0};
   builder b = {.out = out, .method = method, .threads = threads};
-  bvh_part root = bvh_read(&b.refs, out, 0, &scratch, threads);
+  bvh_part root = bvh_read(&b.refs, out, 0, &refs, threads);
   if (out->kept > 0) {
-    build_top(&b, &root, &scratch);
-    build_tasks(&b, mem, &scratch);
+    build_top(&b, &root, &refs, &scratch);
+    build_tasks(&b, mem, &refs, &scratch);
     out->cost = bvh_cost(out);
   }
+  arena_free(&refs);
   arena_free(&scratch);
   out->seconds = clock_seconds() - start;
 }

@@ -13,6 +13,8 @@
 #include "clock.h"
 #include "slab.h"
 
+#include <string.h>
+
 // At most SMALL refs, or 1 / TASKS of all, are a task; CHUNK are binned or
 // moved in one go; a large triangle asks for room for PARTS more of it.
 enum { TASKS = 64, SMALL = 2048, CHUNK = 4096, PARTS = 32 };
@@ -31,6 +33,14 @@ typedef struct split_task {
   int depth;
 } split_task;
 
+// A worker's memory: nodes and triangle numbers of the task at hand, as many
+// as there can be, and those of finished tasks, as many as there are.
+typedef struct split_room {
+  bvh_node *nodes;
+  uint32_t *order;
+  arena done;
+} split_room;
+
 // What the threads share during one build.
 typedef struct split_builder {
   bvh *out;
@@ -39,8 +49,8 @@ typedef struct split_builder {
   uint32_t small;
   bvh_split_node *queue;  // nodes that are no tasks
   split_task *tasks;
-  bvh_node *top, *room;
-  uint32_t *order;  // of all tasks, with gaps
+  bvh_node *top;
+  split_room *rooms;  // one a thread
   uint32_t queue_count, task_count, top_count;
 } split_builder;
 
@@ -128,10 +138,7 @@ static void sort_node(split_builder *b, const bvh_split_node *n) {
     b->queue[b->queue_count++] = *n;
     return;
   }
-  b->tasks[b->task_count++] =
-      (split_task){.root = *n,
-                   .nodes = b->room + 2 * (size_t)n->room_begin,
-                   .order = b->order + n->room_begin};
+  b->tasks[b->task_count++] = (split_task){.root = *n};
 }
 
 // The top of the tree, down to the tasks.
@@ -162,9 +169,7 @@ static void add_leaf(const split_builder *b, split_task *t,
 }
 
 // Depth first, left side first, as bvh_task_run.
-static void run_task(void *context, size_t item, int worker) {
-  split_builder *b = context;
-  split_task *t = &b->tasks[item];
+static void grow_task(const split_builder *b, split_task *t, int worker) {
   bvh_split_shop shop = b->shop;
   shop.threads = NULL;
   shop.chunks = &b->worker_chunk[worker];
@@ -189,6 +194,34 @@ static void run_task(void *context, size_t item, int worker) {
   }
 }
 
+static void run_task(void *context, size_t item, int worker) {
+  split_builder *b = context;
+  split_task *t = &b->tasks[item];
+  split_room *room = &b->rooms[worker];
+  t->nodes = room->nodes;
+  t->order = room->order;
+  grow_task(b, t, worker);
+  t->nodes = ARENA_NEW(&room->done, bvh_node, t->node_count);
+  t->order = ARENA_NEW(&room->done, uint32_t, t->ref_count);
+  memcpy(t->nodes, room->nodes, t->node_count * sizeof *t->nodes);
+  memcpy(t->order, room->order, t->ref_count * sizeof *t->order);
+}
+
+// Each worker has room for whatever the largest task may become.
+static void make_rooms(split_builder *b, arena *scratch) {
+  size_t workers = (size_t)pool_threads(b->shop.threads), most = 0;
+  for (uint32_t i = 0; i < b->task_count; i++) {
+    const bvh_split_node *root = &b->tasks[i].root;
+    size_t room = root->room_end - root->room_begin;
+    if (room > most) most = room;
+  }
+  b->rooms = ARENA_NEW(scratch, split_room, workers);
+  for (size_t i = 0; i < workers; i++) {
+    b->rooms[i].nodes = ARENA_NEW(scratch, bvh_node, 2 * most);
+    b->rooms[i].order = ARENA_NEW(scratch, uint32_t, most);
+  }
+}
+
 // Node i of a task as a node of the finished tree.
 static bvh_node finished_node(const split_task *t, uint32_t i) {
   bvh_node n = t->nodes[i];
@@ -208,10 +241,13 @@ static void copy_task(void *context, size_t item, int worker) {
     b->out->order[t->first_ref + i] = t->order[i];
 }
 
-// Below the tasks, and all of it in one array.
-static void build_tasks(split_builder *b, arena *mem) {
+// Below the tasks, and all of it in one array, once the refs have gone.
+static void build_tasks(split_builder *b, arena *mem, arena *refs_mem,
+                        arena *scratch) {
   bvh *out = b->out;
+  make_rooms(b, scratch);
   pool_run(b->shop.threads, b->task_count, run_task, b);
+  arena_free(refs_mem);
   uint32_t nodes = b->top_count, refs = 0;
   for (uint32_t i = 0; i < b->task_count; i++) {
     split_task *t = &b->tasks[i];
@@ -228,13 +264,16 @@ static void build_tasks(split_builder *b, arena *mem) {
   for (uint32_t i = 0; i < b->top_count; i++)
     out->nodes[i] = b->top[i];
   pool_run(b->shop.threads, b->task_count, copy_task, b);
+  for (int i = 0; i < pool_threads(b->shop.threads); i++)
+    arena_free(&b->rooms[i].done);
 }
 
-// Room for everything, once it is known how much there can be.
-static void make_room(split_builder *b, uint32_t room, arena *scratch) {
+// Room for the top, once it is known how much there can be.
+static void make_room(split_builder *b, uint32_t room, arena *refs_mem,
+                      arena *scratch) {
   size_t threads = (size_t)pool_threads(b->shop.threads);
   b->small = room / TASKS > SMALL ? room / TASKS : SMALL;
-  b->shop.refs[1] = ARENA_NEW(scratch, sah_ref, room);
+  b->shop.refs[1] = ARENA_NEW(refs_mem, sah_ref, room);
   b->shop.chunk_size = CHUNK;
   b->shop.chunks = ARENA_NEW(scratch, bvh_split_chunk, room / CHUNK + 1);
   b->worker_chunk = ARENA_NEW(scratch, bvh_split_chunk, threads);
@@ -242,8 +281,6 @@ static void make_room(split_builder *b, uint32_t room, arena *scratch) {
   b->queue = ARENA_NEW(scratch, bvh_split_node, TASKS * BVH_MAX_DEPTH + 1);
   b->tasks = ARENA_NEW(scratch, split_task, TASKS * BVH_MAX_DEPTH + 1);
   b->top = ARENA_NEW(scratch, bvh_node, 2 * TASKS * BVH_MAX_DEPTH + 1);
-  b->room = ARENA_NEW(scratch, bvh_node, 2 * (size_t)room);
-  b->order = ARENA_NEW(scratch, uint32_t, room);
 }
 
 void bvh_split_build(bvh *out, const bvh *mesh, double rays, arena *mem,
@@ -252,12 +289,11 @@ void bvh_split_build(bvh *out, const bvh *mesh, double rays, arena *mem,
   bvh of = {.positions = mesh->positions,
             .index = mesh->index,
             .triangle_count = mesh->triangle_count};
-  arena scratch = {0};
+  arena refs = {0}, scratch = {0};
   split_builder b = {.out = out, .shop = {.b = out, .threads = threads}};
   *out = of;
-  bvh_split_node root = {
-      .part =
-          bvh_read(&b.shop.refs[0], out, BVH_SPLIT_PERCENT, &scratch, threads)};
+  bvh_split_node root = {.part = bvh_read(&b.shop.refs[0], out,
+                                          BVH_SPLIT_PERCENT, &refs, threads)};
   split_look look =
       look_at_all(out, b.shop.refs[0], &root.part.box, &scratch, threads);
   if (worth_cutting(&look, out->kept, rays)) {
@@ -266,15 +302,16 @@ void bvh_split_build(bvh *out, const bvh *mesh, double rays, arena *mem,
     root.large = look.large;
     root.room_end = out->kept + (uint32_t)(wish < most ? wish : most);
     b.shop.root_area = sah_half_area(&root.part.box);
-    make_room(&b, root.room_end, &scratch);
+    make_room(&b, root.room_end, &refs, &scratch);
     build_top(&b, &root);
-    build_tasks(&b, mem);
+    build_tasks(&b, mem, &refs, &scratch);
     out->cost = bvh_cost(out);
-    arena_free(&scratch);
   } else {
-    arena_free(&scratch);
+    arena_free(&refs);
     bvh_build(out, of.positions, of.index, of.triangle_count, BVH_COARSE, mem,
               threads);
   }
+  arena_free(&refs);
+  arena_free(&scratch);
   out->seconds = clock_seconds() - start;
 }
