@@ -170,7 +170,7 @@ pandoc = pandoc -f gfm+footnotes -t html5 --mathml -s \
   cp chapters/book.css build/book/
 
 format:
-	clang-format-14 -i src/*.[ch] tests/*.c chapters/*/figures.c
+	clang-format-14 -i src/*.[ch] tests/*.[ch] chapters/*.h chapters/*/figures.c
 
 # The manual pages are those that help can print.
 ROOT     = $(DESTDIR)$(PREFIX)

@@ -3,7 +3,7 @@
 # a .c at most 400 and a .h at most 120.
 echo 1..2
 if command -v clang-format-14 >/dev/null; then
-  if clang-format-14 --dry-run -Werror src/*.[ch] tests/*.c \
+  if clang-format-14 --dry-run -Werror src/*.[ch] tests/*.[ch] chapters/*.h \
     chapters/*/figures.c 2>build/format.log
   then echo "ok 1 - format"
   else echo "not ok 1 - format"; head -20 build/format.log | sed 's/^/# /'; fi

@@ -1,9 +1,9 @@
 // figures.c — the pictures of chapter 1, and the numbers its text quotes.
 
+#include "../easel.h"
 #include "hdr.h"
 #include "metric.h"
 #include "pfm.h"
-#include "picture.h"
 #include "png.h"
 
 #include <stdio.h>
@@ -16,30 +16,9 @@ typedef struct output {
   arena mem;
 } output;
 
-// Write a picture, or say why not and end.
-static void publish(output *o, const char *name, image im) {
-  error err;
-  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (picture_write(&im, path, PICTURE_PNG, 8, &err)) return;
-  fprintf(stderr, "%s\n", err.text);
-  exit(4);
-}
-
-// Pixel (x, y) of an image.
-static vec3 *pixel(image im, int x, int y) {
-  return &im.pixels[y * im.width + x];
-}
-
 // The light of an 8-bit code.
 static float light_of_code(double code) {
   return (float)srgb_decode(code / 255);
-}
-
-// Copy one picture into another, its left upper corner at (x0, y0).
-static void paste(image to, image from, int x0, int y0) {
-  for (int y = 0; y < from.height; y++)
-    for (int x = 0; x < from.width; x++)
-      *pixel(to, x0 + x, y0 + y) = *pixel(from, x, y);
 }
 
 // Fill a rectangle.
@@ -49,17 +28,10 @@ static void fill(image im, int x0, int y0, int width, int height, vec3 c) {
       *pixel(im, x, y) = c;
 }
 
-// A sheet of paper: white, to paste on.
-static image sheet(arena *mem, int width, int height) {
-  image im = image_new(mem, width, height);
-  fill(im, 0, 0, width, height, vec3_all(1));
-  return im;
-}
-
 // Two ramps in 24 steps and smooth: equal steps of light above, equal steps
 // of code below.
 static void draw_ramps(output *o) {
-  image im = sheet(&o->mem, 480, 200);
+  image im = paper(&o->mem, 480, 200);
   for (int x = 0; x < 480; x++) {
     float u = (float)x / 479, step = (float)(x / 20) / 23;
     fill(im, x, 0, 1, 48, vec3_all(u));
@@ -67,7 +39,7 @@ static void draw_ramps(output *o) {
     fill(im, x, 104, 1, 48, vec3_all(light_of_code(255 * (double)step)));
     fill(im, x, 152, 1, 48, vec3_all(light_of_code(255 * (double)u)));
   }
-  publish(o, "ramp", im);
+  publish(o->folder, "ramp", im);
   srgb_table t = srgb_table_new();
   printf("code of half the light: %d; light of code 128: %.4f\n",
          srgb_code(&t, 0.5f), (double)light_of_code(128));
@@ -97,10 +69,10 @@ static image sampled_plate(arena *mem, int n) {
 
 // Point samples beside area samples, and the error of each number of samples.
 static void draw_zone_plates(output *o) {
-  image im = sheet(&o->mem, 472, 232);
+  image im = paper(&o->mem, 472, 232);
   paste(im, sampled_plate(&o->mem, 1), 0, 0);
   paste(im, sampled_plate(&o->mem, 8), 240, 0);
-  publish(o, "zone", im);
+  publish(o->folder, "zone", im);
   image exact = sampled_plate(&o->mem, 32);
   for (int n = 1; n <= 16; n *= 2) {
     image some = sampled_plate(&o->mem, n);
@@ -130,7 +102,7 @@ static vec3 scene_light(float x, float y) {
 
 // The same radiance at five exposures, three stops apart.
 static void draw_exposures(output *o) {
-  image im = sheet(&o->mem, 480, 112);
+  image im = paper(&o->mem, 480, 112);
   for (int k = 0; k < 5; k++)
     for (int y = 0; y < 112; y++)
       for (int x = 0; x < 92; x++) {
@@ -138,13 +110,13 @@ static void draw_exposures(output *o) {
             scene_light(((float)x - 45.5f) / 56, ((float)y - 55.5f) / 56);
         *pixel(im, 97 * k + x, y) = vec3_scale(light, ldexpf(1, 3 * k - 6));
       }
-  publish(o, "exposure", im);
+  publish(o->folder, "exposure", im);
 }
 
 // A dark ramp stored as eight bits of light, then as eight bits of code, and
 // shown brighter, as a display does with a dark picture in a dark room.
 static void draw_bands(output *o) {
-  image im = sheet(&o->mem, 480, 168);
+  image im = paper(&o->mem, 480, 168);
   srgb_table t = srgb_table_new();
   for (int x = 0; x < 480; x++) {
     float light = 0.04f * (float)x / 479;
@@ -153,7 +125,7 @@ static void draw_bands(output *o) {
     fill(im, x, 0, 1, 80, vec3_all(as_light * 16));
     fill(im, x, 88, 1, 80, vec3_all(as_code * 16));
   }
-  publish(o, "bands", im);
+  publish(o->folder, "bands", im);
 }
 
 // A fan of white lines on black, eight times as large as it will be shown.
@@ -197,7 +169,7 @@ static double mean_light(image im) {
 // Mixing light against mixing codes: a gradient of two colours, and thin
 // lines made small.
 static void draw_mixing(output *o) {
-  image im = sheet(&o->mem, 480, 316);
+  image im = paper(&o->mem, 480, 316);
   vec3 red = {1, 0.02f, 0.02f}, green = {0.02f, 0.8f, 0.02f};
   for (int x = 0; x < 480; x++) {
     double u = x / 479.0;
@@ -214,7 +186,7 @@ static void draw_mixing(output *o) {
   image good = shrunk(&o->mem, big, false), bad = shrunk(&o->mem, big, true);
   paste(im, good, 0, 76);
   paste(im, bad, 244, 76);
-  publish(o, "mixing", im);
+  publish(o->folder, "mixing", im);
   printf("light of the lines: %.4f large, %.4f by light, %.4f by code\n",
          mean_light(big), mean_light(good), mean_light(bad));
 }
@@ -252,7 +224,7 @@ static void plot_error(image im, int y0, const double *errors, int n) {
 // Rounding to nearest above, cutting off below.
 static void draw_rgbe(output *o) {
   enum { N = 46000 };
-  image im = sheet(&o->mem, 480, 220), grey = image_new(&o->mem, N, 1), back;
+  image im = paper(&o->mem, 480, 220), grey = image_new(&o->mem, N, 1), back;
   double *errors = ARENA_NEW(&o->mem, double, N), sums[2] = {0};
   for (int i = 0; i < N; i++)
     grey.pixels[i] = vec3_all((float)exp2(2.0 * i / N));
@@ -271,7 +243,7 @@ static void draw_rgbe(output *o) {
     }
     plot_error(im, 5 + 109 * side, errors, N);
   }
-  publish(o, "rgbe", im);
+  publish(o->folder, "rgbe", im);
   printf("mean relative error of RGBE: %.1e rounded, %.1e cut off\n", sums[0],
          sums[1]);
 }
@@ -309,7 +281,7 @@ static float damage(int kind, int x, int y, uint32_t *state) {
 // Four pictures with the same RMSE.
 static void draw_damage(output *o) {
   const char *names[] = {"offset", "noise", "noise on the disc", "one pixel"};
-  image im = sheet(&o->mem, 480, 117), clean = clean_picture(&o->mem);
+  image im = paper(&o->mem, 480, 117), clean = clean_picture(&o->mem);
   for (int kind = 0; kind < 4; kind++) {
     image bad = clean_picture(&o->mem), unit = image_new(&o->mem, 117, 117);
     uint32_t state = 1;
@@ -326,7 +298,7 @@ static void draw_damage(output *o) {
     printf("%-17s rmse %.3f  relmse %.4f  mean %+.4f  p99.9 %.3f  max %.3f\n",
            names[kind], m.rmse, m.relmse, m.mean, m.p999, m.max);
   }
-  publish(o, "damage", im);
+  publish(o->folder, "damage", im);
 }
 
 // Seconds of processor time.

@@ -1,10 +1,10 @@
 // figures.c — the pictures of chapter 2, and the numbers its text quotes.
 
+#include "../easel.h"
 #include "mtl.h"
 #include "normals.h"
 #include "number.h"
 #include "obj.h"
-#include "picture.h"
 #include "polygon.h"
 
 #include <math.h>
@@ -17,22 +17,6 @@ typedef struct output {
   const char *folder;
   arena mem;
 } output;
-
-// Write a picture, or say why not and end.
-static void publish(output *o, const char *name, image im) {
-  error err;
-  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (picture_write(&im, path, PICTURE_PNG, 8, &err)) return;
-  fprintf(stderr, "%s\n", err.text);
-  exit(4);
-}
-
-static image paper(output *o, int width, int height) {
-  image im = image_new(&o->mem, width, height);
-  for (int i = 0; i < width * height; i++)
-    im.pixels[i] = vec3_all(1);
-  return im;
-}
 
 static void blend_pixel(image im, int x, int y, vec3 color, float alpha) {
   if (x < 0 || y < 0 || x >= im.width || y >= im.height || alpha <= 0) return;
@@ -245,7 +229,7 @@ static float corner_light(const mesh *m, size_t corner, vec3 flat_normal) {
 // Fill the picture with the nearest triangle of each sample, 3 x 3 a pixel.
 static void draw_shaded(output *o, image im, const shading *s) {
   int w = 3 * im.width, h = 3 * im.height;
-  image big = paper(o, w, h);
+  image big = paper(&o->mem, w, h);
   float *depth = ARENA_NEW(&o->mem, float, (size_t)(w * h));
   for (int i = 0; i < w * h; i++)
     depth[i] = -INFINITY;
@@ -291,13 +275,6 @@ static void draw_shaded(output *o, image im, const shading *s) {
   }
 }
 
-// Copy im into the sheet with its left edge at x.
-static void paste(image sheet, image im, int x) {
-  for (int y = 0; y < im.height; y++)
-    memcpy(&sheet.pixels[y * sheet.width + x], &im.pixels[y * im.width],
-           (size_t)im.width * sizeof(vec3));
-}
-
 // Each triangle's colour: its material's Kd.
 static vec3 *material_colors(const mesh *m, arena *mem) {
   mtl_library lib = {0};
@@ -316,16 +293,16 @@ static vec3 *material_colors(const mesh *m, arena *mem) {
 // The goblet as wires and as surfaces in the colours of its materials.
 static void picture_of_goblet(output *o, const writer *w) {
   mesh m = read_writer(w, &o->mem);
-  image left = paper(o, 236, 270), right = paper(o, 236, 270);
+  image left = paper(&o->mem, 236, 270), right = paper(&o->mem, 236, 270);
   view v = {84, 118, 200};
   draw_wires(left, &m, v);
   normals_generate(&m, NORMALS_AUTO, 180, &o->mem, NULL);
   shading s = {&m, material_colors(&m, &o->mem), v};
   draw_shaded(o, right, &s);
-  image sheet = paper(o, 480, 270);
-  paste(sheet, left, 0);
-  paste(sheet, right, 244);
-  publish(o, "goblet", sheet);
+  image sheet = paper(&o->mem, 480, 270);
+  paste(sheet, left, 0, 0);
+  paste(sheet, right, 244, 0);
+  publish(o->folder, "goblet", sheet);
   printf("goblet: %zu bytes, %zu positions, %zu faces, %zu triangles, area "
          "%.4f, %zu runs\n",
          w->length, m.position_count, m.face_count, m.triangle_count,
@@ -336,20 +313,20 @@ static void picture_of_goblet(output *o, const writer *w) {
 static void picture_of_normals(output *o, const writer *w) {
   static const normals_mode MODES[3] = {NORMALS_FLAT, NORMALS_AUTO,
                                         NORMALS_SMOOTH};
-  image sheet = paper(o, 474, 190);
+  image sheet = paper(&o->mem, 474, 190);
   for (int k = 0; k < 3; k++) {
     mesh m = read_writer(w, &o->mem);
     normals_generate(&m, MODES[k], 180, &o->mem, NULL);
     vec3 *grey = ARENA_NEW(&o->mem, vec3, m.triangle_count);
     for (size_t t = 0; t < m.triangle_count; t++)
       grey[t] = vec3_all(0.75f);
-    image pane = paper(o, 154, 190);
+    image pane = paper(&o->mem, 154, 190);
     shading s = {&m, grey, {56, 77, 142}};
     draw_shaded(o, pane, &s);
-    paste(sheet, pane, 160 * k);
+    paste(sheet, pane, 160 * k, 0);
     printf("normals, mode %d: %zu\n", (int)MODES[k], m.normal_count);
   }
-  publish(o, "normals", sheet);
+  publish(o->folder, "normals", sheet);
 }
 
 // The same text when a reader resolves negative indices at its end, against
@@ -371,14 +348,14 @@ static void picture_of_indices(output *o, const writer *w) {
     uint32_t ring = (top - 2 * STAR) / AROUND;
     wrong.position_index[c] = p + (OUTLINE_POINTS - 1 - ring) * AROUND;
   }
-  image sheet = paper(o, 320, 190), pane = paper(o, 154, 190);
+  image sheet = paper(&o->mem, 320, 190), pane = paper(&o->mem, 154, 190);
   view v = {56, 77, 142};
   draw_wires(pane, &wrong, v);
-  paste(sheet, pane, 0);
-  pane = paper(o, 154, 190);
+  paste(sheet, pane, 0, 0);
+  pane = paper(&o->mem, 154, 190);
   draw_wires(pane, &m, v);
-  paste(sheet, pane, 160);
-  publish(o, "indices", sheet);
+  paste(sheet, pane, 160, 0);
+  publish(o->folder, "indices", sheet);
 }
 
 // A concave outline of 18 corners, a key.
@@ -437,16 +414,16 @@ static void pictures_of_ears(output *o) {
   arena_free(&scratch);
   for (uint32_t i = 0; i + 2 < KEY_CORNERS; i++)
     fan[3 * i] = 0, fan[3 * i + 1] = i + 1, fan[3 * i + 2] = i + 2;
-  image sheet = paper(o, 476, 160);
+  image sheet = paper(&o->mem, 476, 160);
   static const size_t STEPS[6] = {1, 3, 6, 9, 13, 16};
   for (int k = 0; k < 6; k++)
     draw_key(sheet, ears, STEPS[k],
              (vec3){6 + 158 * (float)(k % 3), 68 + 84 * (float)(k / 3), 14.6f});
-  publish(o, "ears", sheet);
-  sheet = paper(o, 476, 104);
+  publish(o->folder, "ears", sheet);
+  sheet = paper(&o->mem, 476, 104);
   draw_key(sheet, fan, KEY_CORNERS - 2, (vec3){8, 94, 22});
   draw_key(sheet, ears, KEY_CORNERS - 2, (vec3){246, 94, 22});
-  publish(o, "fan", sheet);
+  publish(o->folder, "fan", sheet);
   double newell[3];
   polygon_newell(KEY, KEY_CORNERS, newell);
   printf("key: area %.4f, as a fan %.4f, by ears %.4f, clean %d\n",
@@ -517,7 +494,7 @@ static void count_wrong(const char *name, float (*read)(const char *),
 // One pixel per decimal 0.000000 .. 0.099999 in rows: white right, orange one
 // unit in the last place off, dark more.
 static void picture_of_numbers(output *o) {
-  image im = paper(o, 400, 250);
+  image im = paper(&o->mem, 400, 250);
   for (int i = 0; i < im.width * im.height; i++) {
     char text[16];
     snprintf(text, sizeof text, "0.%06d", i);
@@ -525,7 +502,7 @@ static void picture_of_numbers(output *o) {
     if (off == 1) im.pixels[i] = (vec3){0.95f, 0.45f, 0.05f};
     if (off > 1) im.pixels[i] = (vec3){0.25f, 0.02f, 0.05f};
   }
-  publish(o, "numbers", im);
+  publish(o->folder, "numbers", im);
   static const int DIGITS[] = {3, 6, 9, 16, 20};
   for (int k = 0; k < 5; k++) {
     count_wrong("float by digits", naive_float, DIGITS[k], 1000000);

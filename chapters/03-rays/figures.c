@@ -1,9 +1,9 @@
 // figures.c — the pictures of chapter 3, and the numbers its text quotes.
 
+#include "../easel.h"
 #include "camera.h"
 #include "env.h"
 #include "num.h"
-#include "picture.h"
 #include "texture.h"
 #include "triangle.h"
 
@@ -17,15 +17,6 @@ typedef struct output {
   const char *folder;
   arena mem;
 } output;
-
-// Write a picture, or say why not and end.
-static void publish(output *o, const char *name, image im) {
-  error err;
-  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (picture_write(&im, path, PICTURE_PNG, 8, &err)) return;
-  fprintf(stderr, "%s\n", err.text);
-  exit(4);
-}
 
 // White paper of panes side by side with 4 pixels between them.
 static image sheet(output *o, int panes, int width, int height) {
@@ -191,7 +182,7 @@ static void draw_knot(output *o) {
     for (int k = 0; k < 3; k++)
       *pane_pixel(im, k, SIDE, i % SIDE, i / SIDE) = sum[k];
   }
-  publish(o, "knot", im);
+  publish(o->folder, "knot", im);
 }
 
 // A cube of side 1 around p.
@@ -247,7 +238,7 @@ static void draw_framing(output *o) {
       *pane_pixel(im, k, WIDTH, i % WIDTH, i / WIDTH) =
           cubes_at(&m, &v, i % WIDTH, i / WIDTH);
   }
-  publish(o, "framing", im);
+  publish(o->folder, "framing", im);
 }
 
 // Two rows of cubes, seen with three angles from such distances that the
@@ -272,7 +263,7 @@ static void draw_fov(output *o) {
       *pane_pixel(im, k, WIDTH, i % WIDTH, i / WIDTH) =
           cubes_at(&m, &v, i % WIDTH, i / WIDTH);
   }
-  publish(o, "fov", im);
+  publish(o->folder, "fov", im);
 }
 
 // All directions at once: the sky, and directions as colours with a line
@@ -292,7 +283,7 @@ static void draw_sky(output *o) {
       vec3 c = vec3_scale(vec3_add(d, vec3_all(1)), 0.5f);
       *pane_pixel(im, 1, WIDTH, x, y) = vec3_scale(c, line ? 0.25f : 1);
     }
-  publish(o, "sky", im);
+  publish(o->folder, "sky", im);
   double sum = 0;
   for (int i = 0; i < 1000; i++)
     for (int k = 0; k < 1000; k++) {
@@ -333,7 +324,7 @@ static void draw_texture(output *o) {
       *pane_pixel(im, pane, SIDE, i % SIDE, i / SIDE) =
           texture_rgb(&m, (vec2){u, v});
     }
-  publish(o, "texture", im);
+  publish(o->folder, "texture", im);
 }
 
 // A question that a ray can be asked about a triangle.
@@ -416,7 +407,7 @@ static void draw_leaks(output *o) {
       *pane_pixel(im, pane, SIDE, i % SIDE, i / SIDE) =
           vec3_all(any_hit(&m, &r, tests[pane]) ? light : 0);
   }
-  publish(o, "leaks", im);
+  publish(o->folder, "leaks", im);
 }
 
 // The next of a sequence of numbers in [0, 1): xorshift64*.

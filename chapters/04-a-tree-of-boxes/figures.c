@@ -1,11 +1,11 @@
 // figures.c — the pictures of chapter 4, and the numbers its text quotes.
 
+#include "../easel.h"
 #include "aabb.h"
 #include "bvh.h"
 #include "camera.h"
 #include "clock.h"
 #include "num.h"
-#include "picture.h"
 #include "rays.h"
 #include "sah.h"
 #include "slab.h"
@@ -21,15 +21,6 @@ typedef struct output {
   arena mem;
   pool *threads;
 } output;
-
-// Write a picture, or say why not and end.
-static void publish(output *o, const char *name, image im) {
-  error err;
-  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (picture_write(&im, path, PICTURE_PNG, 8, &err)) return;
-  fprintf(stderr, "%s\n", err.text);
-  exit(4);
-}
 
 // ---- Meshes by formula ----
 
@@ -163,17 +154,9 @@ static bvh tree_of(const mesh *m, bvh_method method, output *o) {
 
 // ---- Drawing ----
 
-static const vec3 PAPER = {1, 1, 1}, INK = {0.01f, 0.01f, 0.02f},
-                  GREY = {0.45f, 0.45f, 0.45f}, RED = {0.75f, 0.03f, 0.02f},
-                  BLUE = {0.02f, 0.1f, 0.6f}, GREEN = {0.01f, 0.3f, 0.05f},
-                  ORANGE = {0.85f, 0.25f, 0.0f};
-
-static image sheet_of(output *o, int width, int height) {
-  image im = image_new(&o->mem, width, height);
-  for (int i = 0; i < width * height; i++)
-    im.pixels[i] = PAPER;
-  return im;
-}
+static const vec3 INK = {0.01f, 0.01f, 0.02f}, GREY = {0.45f, 0.45f, 0.45f},
+                  RED = {0.75f, 0.03f, 0.02f}, BLUE = {0.02f, 0.1f, 0.6f},
+                  GREEN = {0.01f, 0.3f, 0.05f}, ORANGE = {0.85f, 0.25f, 0.0f};
 
 // Mix a share of c into a pixel; outside the picture nothing happens.
 static void blend(image im, int x, int y, vec3 c, float share) {
@@ -388,7 +371,7 @@ static void draw_level(const panel *p, const bvh *b, int depth) {
 static void draw_levels(output *o) {
   mesh m = knot_mesh(&o->mem, 240, 24, (vec3){0, 0, 0});
   bvh b = tree_of(&m, BVH_SAH, o);
-  image im = sheet_of(o, 480, 360);
+  image im = paper(&o->mem, 480, 360);
   const camera c = {NULL, {1.1f, 1.5f, 2.1f}, {0, 0, 0}, {0, 1, 0}, 36};
   for (int k = 0; k < 4; k++) {
     static const int depths[4] = {1, 3, 5, 8};
@@ -398,7 +381,7 @@ static void draw_levels(output *o) {
     text(im, p.left + 6, p.top + 6, INK,
          arena_format(&o->mem, "LEVEL %d", depths[k]));
   }
-  publish(o, "levels", im);
+  publish(o->folder, "levels", im);
   printf("knot: %zu triangles, %u nodes, depth %d, cost %.1f\n",
          m.triangle_count, b.node_count, b.depth, b.cost);
 }
@@ -496,7 +479,7 @@ static void draw_cost(output *o) {
   // This figure is about one axis.
   g.scale[1] = g.scale[2] = 0;
   sah_split best = sah_best_split(&bins, &g, area);
-  image im = sheet_of(o, 480, 360);
+  image im = paper(&o->mem, 480, 360);
   plot scene = {im, 48, 6, 420, 118, 0, 1, 0, 0.62f};
   plot p = {im, 48, 140, 420, 180, 0, 1, 0, 1};
   draw_lamp(&scene, refs, n);
@@ -528,7 +511,7 @@ static void draw_cost(output *o) {
               arena_format(&o->mem, "%.1f", 0.2 * k));
   text(im, 180, 345, INK, "POSITION OF THE CUT");
   text(im, 52, 126, INK, "COST");
-  publish(o, "cost", im);
+  publish(o->folder, "cost", im);
   printf("lamp: cost of the cheapest cut %.3f, middle %.3f, median %.3f\n",
          (best.cost / area - SAH_NODE_COST) / (double)n,
          binned[SAH_MAX_BINS / 2 - 1] / (area * (double)n), exact[n / 2]);
@@ -567,7 +550,7 @@ static void draw_heats(output *o, const mesh *m, const bvh *sah) {
   camera_view view;
   error err;
   if (!camera_view_of(&view, &c, 236, 236, &err)) exit(3);
-  image im = sheet_of(o, 480, 280);
+  image im = paper(&o->mem, 480, 280);
   bvh median = tree_of(m, BVH_MEDIAN, o);
   double a = draw_heat(im, 0, &median, &view, most);
   double b = draw_heat(im, 244, sah, &view, most);
@@ -577,7 +560,7 @@ static void draw_heats(output *o, const mesh *m, const bvh *sah) {
     const char *label = arena_format(&o->mem, "%d", 50 * k);
     text(im, 60 + 120 * k - text_width(label) / 2, 248, INK, label);
   }
-  publish(o, "heat", im);
+  publish(o->folder, "heat", im);
   printf("garden: nodes a pixel, middle %.1f, SAH %.1f; cost %.1f, %.1f; "
          "depth %d, %d\n",
          a, b, median.cost, sah->cost, median.depth, sah->depth);
@@ -702,7 +685,7 @@ static mesh town_mesh(arena *mem) {
 static void draw_lost(output *o) {
   mesh m = town_mesh(&o->mem);
   bvh b = tree_of(&m, BVH_SAH, o);
-  image im = sheet_of(o, 480, 236);
+  image im = paper(&o->mem, 480, 236);
   wrong_tree wrong = {&b, MINMAX};
   tracer by[2] = {{.tree = &wrong, .closest = wrong_closest}, bvh_tracer(&b)};
   size_t lost = 0;
@@ -718,7 +701,7 @@ static void draw_lost(output *o) {
     if (!found) c = RED;
     blend(im, 244 * side + x, y, c, 1);
   }
-  publish(o, "lost", im);
+  publish(o->folder, "lost", im);
   printf("town: %zu of %d pixels lost by min and max\n", lost, 236 * 236);
 }
 
@@ -778,11 +761,11 @@ static void draw_leaks(output *o) {
   add_grid(&m, sphere_map, ball, 32, 16);
   bvh b = tree_of(&m, BVH_SAH, o);
   count_leaks("ball", &m, &b, (vec3[2]){{0, 0, 0}, eye});
-  image im = sheet_of(o, 480, 240);
+  image im = paper(&o->mem, 480, 240);
   wrong_tree bare = {&b, BARE};
   tracer by = {.tree = &bare, .closest = wrong_closest};
   draw_edges(im, &m, by, (vec3){0, 0, 0}, eye);
-  publish(o, "leaks", im);
+  publish(o->folder, "leaks", im);
   for (size_t i = 0; i < m.position_count; i++)
     m.positions[i] = vec3_mad(far, 100, m.positions[i]);
   b = tree_of(&m, BVH_SAH, o);
@@ -822,7 +805,7 @@ static float log10_of(double x) {
 }
 
 static void draw_growth(output *o) {
-  image im = sheet_of(o, 480, 320);
+  image im = paper(&o->mem, 480, 320);
   plot p = {im, 56, 10, 406, 266, 3, 6, 1, 6};
   vec2 before[3] = {{0}};
   static const char *const names[3] = {"EACH TRIANGLE", "MIDDLE", "SAH"};
@@ -865,7 +848,7 @@ static void draw_growth(output *o) {
     plot_tick(&p, false, (float)k, arena_format(&o->mem, "1E%d", k));
   text(im, 200, 303, INK, "TRIANGLES");
   text(im, 62, 12, INK, "VISITS A RAY");
-  publish(o, "growth", im);
+  publish(o->folder, "growth", im);
 }
 
 // ---- The table ----

@@ -1,9 +1,9 @@
 // figures.c — the pictures of chapter 5, and the tables that its text quotes.
 
 #include "../../tests/solids.h"
+#include "../easel.h"
 #include "clock.h"
 #include "num.h"
-#include "picture.h"
 #include "raster.h"
 
 #include <stdio.h>
@@ -16,32 +16,6 @@ typedef struct output {
   gl *g;
   double opened;  // seconds it took to open g
 } output;
-
-// Say what went wrong, and end.
-static void give_up(const error *err, int status) {
-  fprintf(stderr, "%s\n", err->text);
-  exit(status);
-}
-
-static void publish(output *o, const char *name, image im) {
-  error err;
-  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (!picture_write(&im, path, PICTURE_PNG, 8, &err)) give_up(&err, 4);
-}
-
-static image paper(output *o, int width, int height) {
-  image im = image_new(&o->mem, width, height);
-  for (int i = 0; i < width * height; i++)
-    im.pixels[i] = vec3_all(1);
-  return im;
-}
-
-static void paste(image onto, int left, int top, image from, float factor) {
-  for (int y = 0; y < from.height; y++)
-    for (int x = 0; x < from.width; x++)
-      onto.pixels[(top + y) * onto.width + left + x] =
-          vec3_scale(from.pixels[y * from.width + x], factor);
-}
 
 // Room for a scene of a few solids.
 enum { STAGE_VERTICES = 8000, STAGE_TRIANGLES = 8000, STAGE_MATERIALS = 8 };
@@ -154,7 +128,7 @@ static void paint_models(output *o) {
   raster_settings set = {
       .width = 480, .height = 112, .msaa = 4, .lights = true};
   camera_view v = view_of((vec3){0, 0, 30}, (vec3){0, 0, 0}, 4.8f, 480, 112);
-  publish(o, "models", draw(o, &s->scene, &v, &set));
+  publish(o->folder, "models", draw(o, &s->scene, &v, &set));
 }
 
 // The garden, drawn once more for the times: the seconds of each stage.
@@ -205,19 +179,19 @@ static void paint_garden(output *o) {
                          .sky = true};
   image im = draw(o, &s, &v, &set);
   brighten(im, s.exposure);
-  publish(o, "garden", im);
+  publish(o->folder, "garden", im);
 
   // The lower half of the same, without shadows and with.
   set.x0 = 240, set.y0 = 150, set.x1 = 480, set.y1 = 270;
-  image both = paper(o, 484, 120);
+  image both = paper(&o->mem, 484, 120);
   for (int k = 0; k < 2; k++) {
     set.shadows = k == 1;
     im = draw(o, &s, &v, &set);
     brighten(im, s.exposure);
-    paste(both, 244 * k, 0, im, 1);
+    paste(both, im, 244 * k, 0);
   }
   both.width = 484;
-  publish(o, "shadows", both);
+  publish(o->folder, "shadows", both);
 }
 
 // A small reference: one ray a pixel, Blinn-Phong as the formula says it.
@@ -294,11 +268,11 @@ static void paint_difference(output *o) {
     beyond += vec3_peak(d) > 1.0f / 255;
     if (vec3_peak(d) <= 1.0f / 255) worst = fmaxf(worst, vec3_peak(d));
   }
-  image all = paper(o, 3 * wide + 6, high);
-  paste(all, 0, 0, drawn, 1);
-  paste(all, wide + 3, 0, traced, 1);
-  paste(all, 2 * wide + 6, 0, apart, 1);
-  publish(o, "difference", all);
+  image all = paper(&o->mem, 3 * wide + 6, high);
+  paste(all, drawn, 0, 0);
+  paste(all, traced, wide + 3, 0);
+  paste(all, apart, 2 * wide + 6, 0);
+  publish(o->folder, "difference", all);
   printf("pixels more than 1/255 apart: %d of %d; of the others the farthest, "
          "in 1/255: %.4f\n",
          beyond, wide * high, 255 * (double)worst);
@@ -319,12 +293,12 @@ static void paint_edges(output *o) {
       view_of((vec3){0, 1.2f, 7}, (vec3){0, -0.1f, 0}, 28, 160, 120);
   raster_settings set = {.width = 160, .height = 120, .lights = true};
   set.x0 = 66, set.y0 = 40, set.x1 = 106, set.y1 = 70;
-  image both = paper(o, 486, 180);
+  image both = paper(&o->mem, 486, 180);
   for (int k = 0; k < 2; k++) {
     set.msaa = k == 0 ? 1 : 4;
-    paste(both, 246 * k, 0, magnified(o, draw(o, &s->scene, &v, &set), 6), 1);
+    paste(both, magnified(o, draw(o, &s->scene, &v, &set), 6), 246 * k, 0);
   }
-  publish(o, "edges", both);
+  publish(o->folder, "edges", both);
 }
 
 // A ball on a floor under one lamp, with a small map so that its texels show.
@@ -337,7 +311,7 @@ static void paint_acne(output *o) {
   s->lights[0] = (light){LIGHT_POINT, {-3, 3.2f, 2.5f}, vec3_all(60)};
   s->scene.light_count = 1;
   const char *const offsets[4] = {"0.0", "7.0", "2.0", "2.0"};
-  image all = paper(o, 4 * 120 + 9, 120);
+  image all = paper(&o->mem, 4 * 120 + 9, 120);
   camera_view v =
       view_of((vec3){1, 2.2f, 7}, (vec3){0.3f, -0.4f, 0}, 30, 120, 120);
   for (int k = 0; k < 4; k++) {
@@ -349,9 +323,9 @@ static void paint_acne(output *o) {
                            .shadow_size = k < 3 ? 128 : 0};
     set.ambient.defines =
         arena_format(&o->mem, "#define SHADOW_OFFSET %s\n", offsets[k]);
-    paste(all, 123 * k, 0, draw(o, &s->scene, &v, &set), 1);
+    paste(all, draw(o, &s->scene, &v, &set), 123 * k, 0);
   }
-  publish(o, "acne", all);
+  publish(o->folder, "acne", all);
 }
 
 // Six views from the lamp of the garden, as depths: what its layers hold.
@@ -359,7 +333,7 @@ static void paint_layers(output *o) {
   scene s = garden_of(o);
   const vec3 ahead[6] = {{1, 0, 0},  {-1, 0, 0}, {0, 1, 0},
                          {0, -1, 0}, {0, 0, 1},  {0, 0, -1}};
-  image all = paper(o, 3 * 158 + 6, 2 * 158 + 3);
+  image all = paper(&o->mem, 3 * 158 + 6, 2 * 158 + 3);
   raster_settings set = {
       .width = 158, .height = 158, .msaa = 1, .shading = RASTER_DEPTH};
   for (int k = 0; k < 6; k++) {
@@ -373,9 +347,9 @@ static void paint_layers(output *o) {
     // Darker is nearer; the square root of the linear depth shows more.
     for (int i = 0; i < 158 * 158; i++)
       im.pixels[i] = vec3_all(im.pixels[i].x);
-    paste(all, k / 2 * 161, k % 2 * 161, im, 1);
+    paste(all, im, k / 2 * 161, k % 2 * 161);
   }
-  publish(o, "layers", all);
+  publish(o->folder, "layers", all);
 }
 
 static void cost_table(output *o) {

@@ -1,9 +1,9 @@
 // figures.c — the pictures of chapter 6, and the numbers that its text quotes.
 
+#include "../easel.h"
 #include "bsdf_rough.h"
 #include "clock.h"
 #include "num.h"
-#include "picture.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,42 +14,6 @@ typedef struct output {
   arena mem;
   dfg of[2];
 } output;
-
-static void publish(output *o, const char *name, const image *im) {
-  error err;
-  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (picture_write(im, path, PICTURE_PNG, 8, &err)) return;
-  fprintf(stderr, "%s\n", err.text);
-  exit(4);
-}
-
-static vec3 *pixel(const image *im, int x, int y) {
-  return &im->pixels[(size_t)y * (size_t)im->width + (size_t)x];
-}
-
-static image sheet_of(output *o, int width, int height, vec3 color) {
-  image im = image_new(&o->mem, width, height);
-  for (int i = 0; i < width * height; i++)
-    im.pixels[i] = color;
-  return im;
-}
-
-static void paste(image *to, const image *from, int x0, int y0) {
-  for (int y = 0; y < from->height; y++)
-    for (int x = 0; x < from->width; x++)
-      *pixel(to, x0 + x, y0 + y) = *pixel(from, x, y);
-}
-
-// Pictures of one height side by side, four white pixels between them.
-static image row_of(output *o, const image *parts, int n) {
-  int width = -4;
-  for (int i = 0; i < n; i++)
-    width += parts[i].width + 4;
-  image all = sheet_of(o, width, parts[0].height, vec3_all(1));
-  for (int i = 0, at = 0; i < n; at += parts[i].width + 4, i++)
-    paste(&all, &parts[i], at, 0);
-  return all;
-}
 
 // A surface as the exercises and mistakes need it: which of them is made.
 typedef enum mistake {
@@ -151,34 +115,22 @@ static void draw_grid(output *o) {
     int x = i % COLUMNS, y = i / COLUMNS;
     look k = {&o->of[PBR_GGX], COPPER, (float)y / (ROWS - 1), rough[x], 0};
     image ball = ball_picture(o, &k, WHOLE);
-    paste(&all, &ball, x * WHOLE.side, y * WHOLE.side);
+    paste(all, ball, x * WHOLE.side, y * WHOLE.side);
   }
-  publish(o, "grid", &all);
-}
-
-// A line of the given colour, both ends in pixels.
-static void draw_line(image *im, vec2 a, vec2 b, vec3 color) {
-  float length = fmaxf(fabsf(b.x - a.x), fabsf(b.y - a.y));
-  int steps = (int)(4 * length) + 1;
-  for (int i = 0; i <= steps; i++) {
-    float t = (float)i / (float)steps;
-    int x = (int)(a.x + t * (b.x - a.x)), y = (int)(a.y + t * (b.y - a.y));
-    if (x >= 0 && x < im->width && y >= 0 && y < im->height)
-      *pixel(im, x, y) = color;
-  }
+  publish(o->folder, "grid", all);
 }
 
 // A white sheet with grey lines: columns x rows of equal fields.
 static image graph_paper(output *o, int side, int columns, int rows) {
-  image im = sheet_of(o, side, side, vec3_all(1));
+  image im = paper(&o->mem, side, side);
   float w = (float)side - 1;
   for (int i = 0; i <= columns; i++) {
     float x = w * (float)i / (float)columns;
-    draw_line(&im, (vec2){x, 0}, (vec2){x, w}, vec3_all(0.75f));
+    draw_thin_line(im, (vec2){x, 0}, (vec2){x, w}, vec3_all(0.75f));
   }
   for (int i = 0; i <= rows; i++) {
     float y = w * (float)i / (float)rows;
-    draw_line(&im, (vec2){0, y}, (vec2){w, y}, vec3_all(0.75f));
+    draw_thin_line(im, (vec2){0, y}, (vec2){w, y}, vec3_all(0.75f));
   }
   return im;
 }
@@ -192,9 +144,9 @@ static void plot(image *im, curve *y, float parameter, vec3 color) {
   for (int i = 0; i <= 2 * im->width; i++) {
     float t = (float)i / (float)(2 * im->width);
     vec2 at = {t * w, (1 - y(0.2499f * t, parameter)) * w};
-    if (i > 0) draw_line(im, last, at, color);
+    if (i > 0) draw_thin_line(*im, last, at, color);
     last.y++;
-    if (i > 0) draw_line(im, last, (vec2){at.x, at.y + 1}, color);
+    if (i > 0) draw_thin_line(*im, last, (vec2){at.x, at.y + 1}, color);
     last = at;
   }
 }
@@ -240,8 +192,8 @@ static void draw_terms(output *o) {
   plot(&p[2], f_curve, COPPER.x, (vec3){0.8f, 0, 0});
   plot(&p[2], f_curve, COPPER.y, (vec3){0, 0.4f, 0});
   plot(&p[2], f_curve, COPPER.z, (vec3){0, 0, 0.8f});
-  image all = row_of(o, p, 3);
-  publish(o, "terms", &all);
+  image all = row_of(&o->mem, p, 3);
+  publish(o->folder, "terms", all);
 }
 
 // The albedo of a white surface: the coat's by the table, the ground's by
@@ -277,7 +229,7 @@ static image furnace_ball(output *o, const dfg *table, float metallic,
     float x = fmaxf((float)i, 0.5f) / STEPS;
     albedo[i] = furnace_albedo(table, metallic, roughness, x * x);
   }
-  image im = sheet_of(o, SIDE, SIDE, vec3_all(0.5f));
+  image im = tinted(&o->mem, SIDE, SIDE, vec3_all(0.5f));
   for (int i = 0; i < SIDE * SIDE; i++) {
     float x = ((float)(i % SIDE) + 0.5f) / (0.46f * SIDE) - 1 / 0.92f;
     float y = ((float)(i / SIDE) + 0.5f) / (0.46f * SIDE) - 1 / 0.92f;
@@ -299,9 +251,9 @@ static void draw_furnace(output *o) {
     for (int x = 0; x < COLUMNS; x++) {
       const dfg *table = &o->of[y == 0 ? PBR_REPORT : PBR_GGX];
       image ball = furnace_ball(o, table, y == 2, rough[x]);
-      paste(&all, &ball, x * 84, y * 84);
+      paste(all, ball, x * 84, y * 84);
     }
-  publish(o, "furnace", &all);
+  publish(o->folder, "furnace", all);
   for (int i = 0; i < COLUMNS; i++) {
     printf("albedo, r %.2f: report", (double)rough[i]);
     for (int model = PBR_REPORT; model >= PBR_GGX; model--)
@@ -331,8 +283,8 @@ static void draw_digits(output *o) {
     look k = {&o->of[PBR_GGX], vec3_all(0.05f), 0, 0.02f, wrong[i]};
     parts[i] = ball_picture(o, &k, f);
   }
-  image all = row_of(o, parts, 3);
-  publish(o, "digits", &all);
+  image all = row_of(&o->mem, parts, 3);
+  publish(o->folder, "digits", all);
 }
 
 // The report's own two balls, and its metal with light for the ground.
@@ -352,8 +304,8 @@ static void draw_metal(output *o) {
   }
   printf("kd without (1 - m): %.0f %% brighter\n",
          100 * (mean[2] / mean[1] - 1));
-  image all = row_of(o, parts, 3);
-  publish(o, "metal", &all);
+  image all = row_of(&o->mem, parts, 3);
+  publish(o->folder, "metal", all);
 }
 
 // The bits of i in reverse, as a fraction.
@@ -381,7 +333,7 @@ static void draw_normals(output *o) {
   rough_terms s = {.alpha = 0.49f};
   image parts[2];
   for (int seen = 0; seen < 2; seen++) {
-    parts[seen] = sheet_of(o, SIDE, SIDE, vec3_all(1));
+    parts[seen] = paper(&o->mem, SIDE, SIDE);
     double largest = 0, sum = 0, sum2 = 0;
     int lost = 0;
     for (unsigned i = 0; i < MANY; i++) {
@@ -406,16 +358,16 @@ static void draw_normals(output *o) {
       float y = SIDE * (0.5f - 0.46f * scale * wi.y);
       float size = fminf(1.2f * sqrtf(fmaxf(w, 0.7f)), 6);
       for (float d = -size; d <= size; d++)
-        draw_line(&parts[seen], (vec2){x - size, y + d},
-                  (vec2){x + size, y + d},
-                  w > 0 ? (vec3){0.1f, 0.1f, 0.4f} : (vec3){0.9f, 0.1f, 0.05f});
+        draw_thin_line(
+            parts[seen], (vec2){x - size, y + d}, (vec2){x + size, y + d},
+            w > 0 ? (vec3){0.1f, 0.1f, 0.4f} : (vec3){0.9f, 0.1f, 0.05f});
     }
     printf("%s: %.1f %% lost, largest weight %.2f, variance %.3f\n",
            seen ? "visible normals" : "all normals", 100.0 * lost / MANY,
            largest, sum2 / MANY - sum / MANY * sum / MANY);
   }
-  image all = row_of(o, parts, 2);
-  publish(o, "normals", &all);
+  image all = row_of(&o->mem, parts, 2);
+  publish(o->folder, "normals", all);
 }
 
 static int by_size(const void *a, const void *b) {

@@ -1,8 +1,8 @@
 // figures.c — the pictures of chapter 8, and the tables that its text quotes.
 
 #include "../../tests/solids.h"
+#include "../easel.h"
 #include "num.h"
-#include "picture.h"
 #include "surface.h"
 
 #include <stdio.h>
@@ -14,15 +14,6 @@ typedef struct output {
   const char *folder;
   arena mem;
 } output;
-
-// Write a picture, or say why not and end.
-static void publish(output *o, const char *name, image im) {
-  error err;
-  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (picture_write(&im, path, PICTURE_PNG, 8, &err)) return;
-  fprintf(stderr, "%s\n", err.text);
-  exit(4);
-}
 
 // The next of a sequence of numbers in [0, 1).
 static float dice(uint32_t *state) {
@@ -223,13 +214,6 @@ static void tile(image im, int x0, const shot *s, int width, int n) {
     }
 }
 
-static image paper(output *o, int width, int height, vec3 c) {
-  image im = image_new(&o->mem, width, height);
-  for (int i = 0; i < width * height; i++)
-    im.pixels[i] = c;
-  return im;
-}
-
 // The cosine to the light, 0 in shadow; a little light from everywhere so that
 // the shape of what is dark can be seen.
 static float lit(const shot *s, const arrival *a, vec3 n) {
@@ -279,11 +263,11 @@ static void floor_tile(output *o, image im, int x0, float scale, leaving how) {
 // The same ball three times: rays from o + t d; with tmin = 1e-3, on a ball
 // with a radius of 3e-4; and from the facet, at that size too.
 static void paint_acne(output *o) {
-  image im = paper(o, 480, 160, vec3_all(1));
+  image im = paper(&o->mem, 480, 160);
   floor_tile(o, im, 0, 1, LEAVE_NAIVE);
   floor_tile(o, im, 162, 3e-4f, LEAVE_FIXED);
   floor_tile(o, im, 324, 3e-4f, LEAVE_FACET);
-  publish(o, "acne", im);
+  publish(o->folder, "acne", im);
 }
 
 static void ball_tile(output *o, image im, int x0, int level, const shot *as) {
@@ -297,11 +281,11 @@ static void ball_tile(output *o, image im, int x0, int level, const shot *as) {
 }
 
 static void paint_terminator(output *o) {
-  image im = paper(o, 480, 160, vec3_all(0.05f));
+  image im = tinted(&o->mem, 480, 160, vec3_all(0.05f));
   ball_tile(o, im, 0, 2, &(shot){.how = LEAVE_FACET, .look = look_flat});
   ball_tile(o, im, 162, 2, &(shot){.how = LEAVE_FACET, .look = look_smooth});
   ball_tile(o, im, 324, 2, &(shot){.how = LEAVE_SMOOTH, .look = look_smooth});
-  publish(o, "terminator", im);
+  publish(o->folder, "terminator", im);
 }
 
 // The sky in the mirror direction about n, with the glare of its sun damped;
@@ -330,11 +314,11 @@ static vec3 look_mirror_bent(const shot *s, const arrival *a) {
 }
 
 static void paint_mirror(output *o) {
-  image im = paper(o, 480, 160, (vec3){0.62f, 0.68f, 0.74f});
+  image im = tinted(&o->mem, 480, 160, (vec3){0.62f, 0.68f, 0.74f});
   ball_tile(o, im, 0, 1, &(shot){.look = look_mirror_flat});
   ball_tile(o, im, 162, 1, &(shot){.look = look_mirror_smooth});
   ball_tile(o, im, 324, 1, &(shot){.look = look_mirror_bent});
-  publish(o, "mirror", im);
+  publish(o->folder, "mirror", im);
 }
 
 static void cube_tile(output *o, image im, int x0, const shot *as) {
@@ -347,11 +331,11 @@ static void cube_tile(output *o, image im, int x0, const shot *as) {
 }
 
 static void paint_cube(output *o) {
-  image im = paper(o, 480, 160, vec3_all(0.05f));
+  image im = tinted(&o->mem, 480, 160, vec3_all(0.05f));
   cube_tile(o, im, 0, &(shot){.how = LEAVE_FACET, .look = look_flat});
   cube_tile(o, im, 162, &(shot){.how = LEAVE_FACET, .look = look_smooth});
   cube_tile(o, im, 324, &(shot){.how = LEAVE_SMOOTH, .look = look_smooth});
-  publish(o, "cube", im);
+  publish(o->folder, "cube", im);
 }
 
 // Fill the disc of radius r pixels around the point (x, y) of the plane, which
@@ -385,7 +369,7 @@ static void paint_slice(output *o) {
              lifted = {0.8f, 0.1f, 0.05f}, normal = {0.1f, 0.3f, 0.7f};
   solid s = solid_icosphere(&o->mem, 0);
   stage st = stage_of(&s, true, (vec3){0, 0, 1}, &o->mem);
-  image im = paper(o, 960, 960, vec3_all(1));
+  image im = paper(&o->mem, 960, 960);
   const int n = 6000;
   for (int k = 0; k < n; k++) {
     vec2 c = num_circle((float)k / (float)n);
@@ -399,7 +383,7 @@ static void paint_slice(output *o) {
     for (int j = 0; k % 150 == 75 && j < 100; j++)
       ink(im, vec3_mad(a.at.p, 0.0018f * (float)j, a.at.ns), 2, normal);
   }
-  publish(o, "slice", thirded(o, im));
+  publish(o->folder, "slice", thirded(o, im));
 }
 
 // A globe of wide x high patches with texture coordinates.
@@ -454,7 +438,7 @@ static vec3 look_bumped_mirror(const shot *s, const arrival *a) {
 }
 
 static void paint_bump(output *o) {
-  image im = paper(o, 480, 160, (vec3){0.62f, 0.68f, 0.74f});
+  image im = tinted(&o->mem, 480, 160, (vec3){0.62f, 0.68f, 0.74f});
   globe g = globe_of(o, 48, 24);
   texture map = waves(o);
   material m = {.map_bump = {.image = &map,
@@ -472,7 +456,7 @@ static void paint_bump(output *o) {
   tile(im, 162, &v, 156, 3);
   v.look = look_bumped_mirror;
   tile(im, 324, &v, 156, 3);
-  publish(o, "bump", im);
+  publish(o->folder, "bump", im);
 }
 
 // Errors of an icosphere's light against the sphere's, at random points under

@@ -1,10 +1,10 @@
 // figures.c — the pictures of chapter 9, and the numbers that its text quotes.
 
 #include "../../tests/solids.h"
+#include "../easel.h"
 #include "bsdf.h"
 #include "metric.h"
 #include "num.h"
-#include "picture.h"
 #include "render.h"
 
 #include <stdio.h>
@@ -17,36 +17,6 @@ typedef struct output {
   pool *threads;
 } output;
 
-static void give_up(const error *err) {
-  fprintf(stderr, "%s\n", err->text);
-  exit(4);
-}
-
-static void publish(output *o, const char *name, const image *im) {
-  error err;
-  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (!picture_write(im, path, PICTURE_PNG, 8, &err)) give_up(&err);
-}
-
-static vec3 *pixel(const image *im, int x, int y) {
-  return &im->pixels[(size_t)y * (size_t)im->width + (size_t)x];
-}
-
-// Pictures of one height side by side, four white pixels between them.
-static image row_of(output *o, const image *parts, int n) {
-  int width = -4, height = parts[0].height;
-  for (int i = 0; i < n; i++)
-    width += parts[i].width + 4;
-  image all = image_new(&o->mem, width, height);
-  for (int i = 0; i < width * height; i++)
-    all.pixels[i] = vec3_all(1);
-  for (int i = 0, at = 0; i < n; at += parts[i].width + 4, i++)
-    for (int y = 0; y < height; y++)
-      for (int x = 0; x < parts[i].width; x++)
-        *pixel(&all, at + x, y) = *pixel(&parts[i], x, y);
-  return all;
-}
-
 // A scene with its tree.
 typedef struct stage {
   scene scene;
@@ -58,7 +28,7 @@ static stage *stage_load(output *o, const char *path) {
   scene_options options = {0};
   error err;
   if (!scene_load(&s->scene, path, &options, &o->mem, o->threads, NULL, &err))
-    give_up(&err);
+    give_up(&err, 4);
   const mesh *m = &s->scene.mesh;
   bvh_build(&s->tree, m->positions, m->position_index,
             (uint32_t)m->triangle_count, BVH_SAH, &o->mem, o->threads);
@@ -76,7 +46,7 @@ static camera_view stage_view(const stage *s, int width, int height) {
   camera_view v;
   error err;
   if (!camera_view_of(&v, scene_camera(&s->scene, NULL), width, height, &err))
-    give_up(&err);
+    give_up(&err, 4);
   return v;
 }
 
@@ -124,8 +94,8 @@ static void draw_bounces(output *o) {
                            .height = 144,
                            .spp = 64,
                            .max_depth = i < 2 ? i + 2 : 0});
-  image all = row_of(o, parts, 3);
-  publish(o, "bounces", &all);
+  image all = row_of(&o->mem, parts, 3);
+  publish(o->folder, "bounces", all);
 }
 
 // The mistakes of the section "What goes wrong".
@@ -187,8 +157,8 @@ static void draw_mistakes(output *o) {
       green += (double)parts[m].pixels[i].y / (SIDE * SIDE);
     printf("mistake %d: mean green %.3f\n", m, green);
   }
-  image all = row_of(o, parts, MISTAKES);
-  publish(o, "mistakes", &all);
+  image all = row_of(&o->mem, parts, MISTAKES);
+  publish(o->folder, "mistakes", all);
 }
 
 // Balls of six materials, each before light of one brightness from everywhere:
@@ -220,37 +190,23 @@ static void draw_furnace(output *o) {
     s.scene.materials = &balls[i];
     parts[i] = take(o, &s, (shot){.width = 76, .height = 76, .spp = 40});
   }
-  image all = row_of(o, parts, 6);
-  publish(o, "furnace", &all);
-}
-
-// A line of the given colour from (x0, y0) to (x1, y1), both ends in pixels.
-static void draw_line(image *im, vec2 a, vec2 b, vec3 color) {
-  float length = fmaxf(fabsf(b.x - a.x), fabsf(b.y - a.y));
-  int steps = (int)(4 * length) + 1;
-  for (int i = 0; i <= steps; i++) {
-    float t = (float)i / (float)steps;
-    int x = (int)(a.x + t * (b.x - a.x)), y = (int)(a.y + t * (b.y - a.y));
-    if (x >= 0 && x < im->width && y >= 0 && y < im->height)
-      *pixel(im, x, y) = color;
-  }
+  image all = row_of(&o->mem, parts, 6);
+  publish(o->folder, "furnace", all);
 }
 
 // A white sheet with grey lines: columns x rows of equal fields.
 static image graph_paper(output *o, int width, int height, int columns,
                          int rows) {
-  image im = image_new(&o->mem, width, height);
+  image im = paper(&o->mem, width, height);
   const vec3 grey = vec3_all(0.7f);
-  for (int i = 0; i < width * height; i++)
-    im.pixels[i] = vec3_all(1);
   float w = (float)width - 1, h = (float)height - 1;
   for (int i = 0; i <= columns; i++) {
     float x = w * (float)i / (float)columns;
-    draw_line(&im, (vec2){x, 0}, (vec2){x, h}, grey);
+    draw_thin_line(im, (vec2){x, 0}, (vec2){x, h}, grey);
   }
   for (int i = 0; i <= rows; i++) {
     float y = h * (float)i / (float)rows;
-    draw_line(&im, (vec2){0, y}, (vec2){w, y}, grey);
+    draw_thin_line(im, (vec2){0, y}, (vec2){w, y}, grey);
   }
   return im;
 }
@@ -292,14 +248,14 @@ static void draw_fresnel(output *o) {
       float r = fresnel_dielectric(c, eta, &cos_t), s = schlick_inside(c, eta);
       vec2 exact = {(float)i / 4, (SIDE - 1) * (1 - r)};
       vec2 schlick = {(float)i / 4, (SIDE - 1) * (1 - s)};
-      if (i > 0) draw_line(&parts[out], schlick0, schlick, red);
-      if (i > 0) draw_line(&parts[out], exact0, exact, black);
+      if (i > 0) draw_thin_line(parts[out], schlick0, schlick, red);
+      if (i > 0) draw_thin_line(parts[out], exact0, exact, black);
       exact0 = exact, schlick0 = schlick;
     }
     print_worst(eta);
   }
-  image all = row_of(o, parts, 2);
-  publish(o, "fresnel", &all);
+  image all = row_of(&o->mem, parts, 2);
+  publish(o->folder, "fresnel", all);
 }
 
 // The error of the room at 1, 4, ... 256 samples against that of many: both
@@ -324,13 +280,13 @@ static void draw_convergence(output *o) {
     float y = (0.5f + (float)(first - last)) * FIELD;
     if (i == 0) from = (vec2){x, y};
     for (int k = -3; k <= 3; k++)
-      draw_line(&plot, (vec2){x - 3, y + (float)k}, (vec2){x + 3, y + (float)k},
-                (vec3){0.8f, 0.05f, 0.02f});
+      draw_thin_line(plot, (vec2){x - 3, y + (float)k},
+                     (vec2){x + 3, y + (float)k}, (vec3){0.8f, 0.05f, 0.02f});
   }
-  draw_line(&plot, from, (vec2){from.x + 8 * FIELD, from.y + 4 * FIELD},
-            vec3_all(0));
+  draw_thin_line(plot, from, (vec2){from.x + 8 * FIELD, from.y + 4 * FIELD},
+                 vec3_all(0));
   printf("slope %.3f\n", (last - first) / (2 * (STEPS - 1)));
-  publish(o, "convergence", &plot);
+  publish(o->folder, "convergence", plot);
 }
 
 // The garden with 10 samples and 256, and without its lamp and with it.
@@ -340,13 +296,13 @@ static void draw_garden(output *o) {
   image best = expose(s, take(o, s, how));
   how.spp = 10;
   image few = expose(s, take(o, s, how));
-  image noise = row_of(o, (image[]){few, best}, 2);
-  publish(o, "garden-noise", &noise);
+  image noise = row_of(&o->mem, (image[]){few, best}, 2);
+  publish(o->folder, "garden-noise", noise);
   how.spp = 48;
   how.no_lights = true;
   image dark = expose(s, take(o, s, how));
-  image lamp = row_of(o, (image[]){dark, best}, 2);
-  publish(o, "garden-lamp", &lamp);
+  image lamp = row_of(&o->mem, (image[]){dark, best}, 2);
+  publish(o->folder, "garden-lamp", lamp);
 }
 
 // Its glass ball and its mirror ball closer: facets, and smooth.
@@ -357,8 +313,8 @@ static void draw_facets(output *o) {
   const stage *s = stage_load(o, "scenes/garden.scene");
   image parts[2] = {expose(flat, take(o, flat, how)),
                     expose(s, take(o, s, how))};
-  image both = row_of(o, parts, 2);
-  publish(o, "garden-facets", &both);
+  image both = row_of(&o->mem, parts, 2);
+  publish(o->folder, "garden-facets", both);
 }
 
 int main(int argc, char **argv) {

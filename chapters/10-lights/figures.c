@@ -1,12 +1,12 @@
 // figures.c — the pictures of chapter 10, and the numbers that its text quotes.
 
+#include "../easel.h"
 #include "bvh.h"
 #include "clock.h"
 #include "light_emission.h"
 #include "metric.h"
 #include "num.h"
 #include "path.h"
-#include "picture.h"
 #include "render.h"
 #include "vertex.h"
 
@@ -20,59 +20,13 @@ typedef struct output {
   pool *threads;
 } output;
 
-static void give_up(const error *err) {
-  fprintf(stderr, "%s\n", err->text);
-  exit(4);
-}
-
-static void publish(output *o, const char *name, const image *im) {
-  error err;
-  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (!picture_write(im, path, PICTURE_PNG, 8, &err)) give_up(&err);
-}
-
-static vec3 *pixel(const image *im, int x, int y) {
-  return &im->pixels[(size_t)y * (size_t)im->width + (size_t)x];
-}
-
-static image blank(output *o, int width, int height) {
-  image im = image_new(&o->mem, width, height);
-  for (int i = 0; i < width * height; i++)
-    im.pixels[i] = vec3_all(1);
-  return im;
-}
-
-// Pictures of one height side by side, four white pixels between them.
-static image row_of(output *o, const image *parts, int n) {
-  int width = -4, height = parts[0].height;
-  for (int i = 0; i < n; i++)
-    width += parts[i].width + 4;
-  image all = blank(o, width, height);
-  for (int i = 0, at = 0; i < n; at += parts[i].width + 4, i++)
-    for (int y = 0; y < height; y++)
-      for (int x = 0; x < parts[i].width; x++)
-        *pixel(&all, at + x, y) = *pixel(&parts[i], x, y);
-  return all;
-}
-
 static const vec3 RED = {0.8f, 0.05f, 0.02f}, GREY = {0.35f, 0.35f, 0.35f};
-
-static void draw_line(image *im, vec2 a, vec2 b, vec3 color) {
-  float length = fmaxf(fabsf(b.x - a.x), fabsf(b.y - a.y));
-  int steps = (int)(4 * length) + 1;
-  for (int i = 0; i <= steps; i++) {
-    float t = (float)i / (float)steps;
-    int x = (int)(a.x + t * (b.x - a.x)), y = (int)(a.y + t * (b.y - a.y));
-    if (x >= 0 && x < im->width && y >= 0 && y < im->height)
-      *pixel(im, x, y) = color;
-  }
-}
 
 static void draw_dot(image *im, float x, float y, int size, vec3 color) {
   for (int i = 0; i < size * size; i++) {
     int px = (int)x + i % size - size / 2, py = (int)y + i / size - size / 2;
     if (px >= 0 && px < im->width && py >= 0 && py < im->height)
-      *pixel(im, px, py) = color;
+      *pixel(*im, px, py) = color;
   }
 }
 
@@ -82,12 +36,12 @@ static void draw_points(output *o) {
   enum { SIDE = 157, POINTS = 256 };
   image parts[3];
   for (int k = 0; k < 3; k++) {
-    parts[k] = blank(o, SIDE, SIDE);
+    parts[k] = paper(&o->mem, SIDE, SIDE);
     for (int i = 0; i <= 16; i++) {
       float x = (SIDE - 1) * (float)i / 16;
       vec3 c = vec3_all(i % 2 ? 0.9f : 0.75f);
-      draw_line(&parts[k], (vec2){x, 0}, (vec2){x, SIDE}, c);
-      draw_line(&parts[k], (vec2){0, x}, (vec2){SIDE, x}, c);
+      draw_thin_line(parts[k], (vec2){x, 0}, (vec2){x, SIDE}, c);
+      draw_thin_line(parts[k], (vec2){0, x}, (vec2){SIDE, x}, c);
     }
     for (uint32_t i = POINTS; i-- > 0;) {
       sampler s = sampler_of(k == 0 ? SAMPLER_RANDOM : SAMPLER_SOBOL, 1, 2, i);
@@ -98,8 +52,8 @@ static void draw_points(output *o) {
                i < 64 ? RED : GREY);
     }
   }
-  image all = row_of(o, parts, 3);
-  publish(o, "points", &all);
+  image all = row_of(&o->mem, parts, 3);
+  publish(o->folder, "points", all);
 }
 
 // One of the integrals of the plot: a pixel with an edge through it, or the
@@ -159,11 +113,11 @@ static void draw_slopes(output *o) {
        .lamp = true,
        .dimension = 12,
        .color = {0.02f, 0.4f, 0.08f}}};
-  image im = blank(o, FIELD * COLUMNS + 1, FIELD * ROWS * 3 / 4 + 1);
+  image im = paper(&o->mem, FIELD * COLUMNS + 1, FIELD * ROWS * 3 / 4 + 1);
   for (int i = 0; i <= COLUMNS; i++) {
     float x = (float)(i * FIELD), y = (float)(i * FIELD * 3 / 4);
-    draw_line(&im, (vec2){x, 0}, (vec2){x, 999}, vec3_all(0.8f));
-    draw_line(&im, (vec2){0, y}, (vec2){999, y}, vec3_all(0.8f));
+    draw_thin_line(im, (vec2){x, 0}, (vec2){x, 999}, vec3_all(0.8f));
+    draw_thin_line(im, (vec2){0, y}, (vec2){999, y}, vec3_all(0.8f));
   }
   for (size_t k = 0; k < sizeof ALL / sizeof *ALL; k++) {
     vec2 last = {0, 0};
@@ -174,13 +128,13 @@ static void draw_slopes(output *o) {
       printf(" %.1e", e[i]);
       float down = -log2f((float)e[i]) / 4 * FIELD * 3 / 4;
       vec2 at = {(float)(i * FIELD), down};
-      if (i > 0) draw_line(&im, last, at, ALL[k].color);
+      if (i > 0) draw_thin_line(im, last, at, ALL[k].color);
       draw_dot(&im, at.x, at.y, 5, ALL[k].color);
       last = at;
     }
     printf("  slope %.2f\n", log2(e[STEPS - 1] / e[2]) / (2 * (STEPS - 3)));
   }
-  publish(o, "slopes", &im);
+  publish(o->folder, "slopes", im);
 }
 
 // A scene with its tree and its lights.
@@ -206,7 +160,7 @@ static stage *stage_load(output *o, const char *path, const char *sky) {
   scene_options options = {.env = sky};
   error err;
   if (!scene_load(&s->scene, path, &options, &o->mem, o->threads, NULL, &err))
-    give_up(&err);
+    give_up(&err, 4);
   stage_ready(o, s);
   return s;
 }
@@ -260,7 +214,7 @@ static camera_view view_of(vec3 eye, vec3 target, float fov, int w, int h) {
   camera c = {.eye = eye, .target = target, .up = {0, 1, 0}, .fov_deg = fov};
   camera_view v;
   error err;
-  if (!camera_view_of(&v, &c, w, h, &err)) give_up(&err);
+  if (!camera_view_of(&v, &c, w, h, &err)) give_up(&err, 4);
   return v;
 }
 
@@ -378,7 +332,7 @@ static void take_row(void *context, size_t row, int worker) {
       ray r = camera_ray(job->view, (float)x + at.x, (float)row + at.y);
       sum = vec3_add(sum, direct(job->stage, how, r, &n));
     }
-    *pixel(&job->out, x, (int)row) = vec3_scale(sum, 1 / (float)how->spp);
+    *pixel(job->out, x, (int)row) = vec3_scale(sum, 1 / (float)how->spp);
   }
 }
 
@@ -448,8 +402,8 @@ static void draw_weights(output *o) {
     print_error(NAMES[ORDER[i]], &parts[i], &truth, o);
     parts[i] = expose(parts[i], 4);
   }
-  image all = row_of(o, parts, 3);
-  publish(o, "weights", &all);
+  image all = row_of(&o->mem, parts, 3);
+  publish(o->folder, "weights", all);
 }
 
 // A strip of light that washes a wall from close by, and a box before it.
@@ -479,8 +433,8 @@ static void draw_mistakes(output *o) {
     print_error(NAMES[i], &parts[i], &truth, o);
     parts[i] = expose(parts[i], 5);
   }
-  image all = row_of(o, parts, 4);
-  publish(o, "mistakes", &all);
+  image all = row_of(&o->mem, parts, 4);
+  publish(o->folder, "mistakes", all);
 }
 
 // A town at night: boxes, and 500 lanterns of all colours.
@@ -523,8 +477,8 @@ static void draw_many(output *o) {
   printf("%u lights in the tree\n", s->lights.near.count);
   print_error("each as likely", &parts[0], &truth, o);
   print_error("by the tree", &parts[1], &truth, o);
-  image all = row_of(o, parts, 2);
-  publish(o, "many", &all);
+  image all = row_of(&o->mem, parts, 2);
+  publish(o->folder, "many", all);
 }
 
 // A sky, the density of its table in the same place, and directions drawn.
@@ -532,7 +486,7 @@ static void draw_sky(output *o) {
   enum { W = 158, H = 79 };
   static env sky;
   error err;
-  if (!env_load(&sky, "scenes/sky.hdr", &o->mem, NULL, &err)) give_up(&err);
+  if (!env_load(&sky, "scenes/sky.hdr", &o->mem, NULL, &err)) give_up(&err, 4);
   light_env l;
   light_env_build(&l, &sky, &o->mem, o->threads);
   image parts[3];
@@ -558,8 +512,8 @@ static void draw_sky(output *o) {
     draw_dot(&parts[2], uv.x * W, uv.y * H, 2, (vec3){1, 0.7f, 0.1f});
   }
   printf("%d of 512 directions to the sun\n", near_sun);
-  image all = row_of(o, parts, 3);
-  publish(o, "sky", &all);
+  image all = row_of(&o->mem, parts, 3);
+  publish(o->folder, "sky", all);
 }
 
 static image render(output *o, const stage *s, const integrator *by, int spp,
@@ -570,7 +524,7 @@ static image render(output *o, const stage *s, const integrator *by, int spp,
   camera_view v;
   error err;
   const camera *c = scene_camera(&s->scene, NULL);
-  if (!camera_view_of(&v, c, set.width, set.height, &err)) give_up(&err);
+  if (!camera_view_of(&v, c, set.width, set.height, &err)) give_up(&err, 4);
   render_result r;
   render_run(&r, &s->world, &v, &set, &o->mem, o->threads);
   return r.color;
@@ -594,8 +548,8 @@ static void draw_shadow(output *o) {
            metric_compare(&parts[i], &truth, &o->mem).mae);
   for (int i = 0; i < 2; i++)
     parts[i] = expose(parts[i], num_exp2(s->scene.exposure));
-  image all = row_of(o, parts, 2);
-  publish(o, "shadow", &all);
+  image all = row_of(&o->mem, parts, 2);
+  publish(o->folder, "shadow", all);
 }
 
 // The least seconds of several runs for each of n calls, in nanoseconds.

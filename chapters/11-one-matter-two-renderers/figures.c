@@ -1,11 +1,11 @@
 // figures.c — the pictures of chapter 11, and the tables that its text quotes.
 
 #include "../../tests/solids.h"
+#include "../easel.h"
 #include "bsdf_rough.h"
 #include "clock.h"
 #include "ibl_source.h"
 #include "num.h"
-#include "picture.h"
 #include "raster.h"
 #include "raster_env.h"
 #include "raster_lean.h"
@@ -29,27 +29,12 @@ typedef struct gallery {
   raster_lean lean;
 } gallery;
 
-// Say what went wrong, and end.
-static void give_up(const error *err, int status) {
-  fprintf(stderr, "%s\n", err->text);
-  exit(status);
-}
-
 // Write a picture, every pixel times gain.
 static void hang(gallery *o, const char *name, image im, float gain) {
-  error err;
   image out = image_new(&o->mem, im.width, im.height);
   for (int i = 0; i < im.width * im.height; i++)
     out.pixels[i] = vec3_scale(im.pixels[i], gain);
-  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (!picture_write(&out, path, PICTURE_PNG, 8, &err)) give_up(&err, 4);
-}
-
-static void paste(image onto, int left, int top, image from) {
-  for (int y = 0; y < from.height; y++)
-    for (int x = 0; x < from.width; x++)
-      onto.pixels[(top + y) * onto.width + left + x] =
-          from.pixels[y * from.width + x];
+  publish(o->folder, name, out);
 }
 
 // The roughnesses of pictures and tables.
@@ -422,16 +407,9 @@ static const vec3 COLORS[METHODS] = {[REPORT] = {0.65f, 0.65f, 0.65f},
                                      [SPLIT] = {0.75f, 0.08f, 0.05f},
                                      [LEAN] = {0.02f, 0.3f, 0.08f}};
 
-static image paper(gallery *o, int width, int height) {
-  image im = image_new(&o->mem, width, height);
-  for (int i = 0; i < width * height; i++)
-    im.pixels[i] = vec3_all(1);
-  return im;
-}
-
 // Errors from 0.001 to 1, three decades; roughness 0 to 1 to the right.
 static image plot(gallery *o, const errors *e) {
-  image im = paper(o, 238, 178);
+  image im = paper(&o->mem, 238, 178);
   const float x0 = 6, y0 = 5, w = 226, h = 168;
   for (int i = 0; i <= 3; i++) {
     float y = y0 + h * (float)i / 3;
@@ -457,7 +435,7 @@ static image plot(gallery *o, const errors *e) {
 }
 
 static void draw_errors(gallery *o) {
-  image all = paper(o, 480, 360);
+  image all = paper(&o->mem, 480, 360);
   printf("rms error at roughness   ");
   for (int k = 0; k < STEPS; k++)
     printf(" %.2f", (double)ROUGH[k]);
@@ -471,7 +449,7 @@ static void draw_errors(gallery *o) {
   for (int i = 0; i < 6; i++) {
     errors e = errors_under(o, l[i / 2], (float)(i % 2));
     print_errors(names[i], &e);
-    if (i < 4) paste(all, i % 2 * 242, i / 2 * 182, plot(o, &e));
+    if (i < 4) paste(all, plot(o, &e), i % 2 * 242, i / 2 * 182);
   }
   hang(o, "errors", all, 1);
 }
@@ -507,7 +485,7 @@ static void polar_ray(const polar *p, float angle, float length, vec3 color) {
 // The lobe of roughness r seen at 60 degrees, black; that seen head-on, about
 // the mirror direction, red, and about the mean, green, of the same albedo.
 static image lobe_sheet(gallery *o, float r, float scale) {
-  polar p = {paper(o, 238, 150), 90, 140, 0};
+  polar p = {paper(&o->mem, 238, 150), 90, 140, 0};
   const float nv = 0.5f, up = PI / 3;
   bsdf_rough b = bsdf_rough_of(&o->table[PBR_GGX], vec3_all(1), 1, r);
   dfg_pair e = dfg_lookup(b.table, nv, r), head = dfg_lookup(b.table, 1, r);
@@ -540,9 +518,9 @@ static image lobe_sheet(gallery *o, float r, float scale) {
 }
 
 static void draw_lobes(gallery *o) {
-  image all = paper(o, 480, 150);
-  paste(all, 0, 0, lobe_sheet(o, 0.5f, 60));
-  paste(all, 242, 0, lobe_sheet(o, 0.75f, 170));
+  image all = paper(&o->mem, 480, 150);
+  paste(all, lobe_sheet(o, 0.5f, 60), 0, 0);
+  paste(all, lobe_sheet(o, 0.75f, 170), 242, 0);
   hang(o, "lobes", all, 1);
 }
 
@@ -676,7 +654,7 @@ static void draw_twins(gallery *o, const char *name, vec3 color,
     part[3] = difference(o, part[1], part[0], 4);
     part[4] = difference(o, part[2], part[0], 4);
     for (int y = 0; y < 5; y++)
-      paste(all, i * BALL, y * BALL, part[y]);
+      paste(all, part[y], i * BALL, y * BALL);
   }
   hang(o, name, all, 0.8f);
 }
@@ -697,7 +675,7 @@ static void draw_furnace(gallery *o) {
     image ball = raster_ball(o, &k, how[y], &normals);
     if (y == 2 || y == 4)
       ball = true_ball(o, &k, y == 4 ? PBR_REPORT : PBR_GGX, normals);
-    paste(all, i % STEPS * BALL, y * BALL, ball);
+    paste(all, ball, i % STEPS * BALL, y * BALL);
   }
   hang(o, "furnace", all, 0.5f);
 }
@@ -710,9 +688,9 @@ static void draw_below(gallery *o) {
   for (int i = 0; i < STEPS; i++) {
     image normals;
     k.roughness = ROUGH[i];
-    paste(all, i * BALL, BALL, raster_ball(o, &k, SPLIT, &normals));
-    paste(all, i * BALL, 2 * BALL, raster_ball(o, &k, LEAN, NULL));
-    paste(all, i * BALL, 0, true_ball(o, &k, PBR_GGX, normals));
+    paste(all, raster_ball(o, &k, SPLIT, &normals), i * BALL, BALL);
+    paste(all, raster_ball(o, &k, LEAN, NULL), i * BALL, 2 * BALL);
+    paste(all, true_ball(o, &k, PBR_GGX, normals), i * BALL, 0);
   }
   hang(o, "below", all, 0.8f);
 }

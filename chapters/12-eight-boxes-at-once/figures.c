@@ -1,9 +1,9 @@
 // figures.c — the pictures of chapter 12, and the numbers its text quotes.
 
+#include "../easel.h"
 #include "bvh_split.h"
 #include "camera.h"
 #include "num.h"
-#include "picture.h"
 #include "rays.h"
 #include "triangle.h"
 #include "wide.h"
@@ -17,15 +17,6 @@ typedef struct output {
   arena mem;
   pool *threads;
 } output;
-
-// Write a picture, or say why not and end.
-static void publish(output *o, const char *name, image im) {
-  error err;
-  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (picture_write(&im, path, PICTURE_PNG, 8, &err)) return;
-  fprintf(stderr, "%s\n", err.text);
-  exit(4);
-}
 
 // ---- A mesh by formula ----
 
@@ -119,7 +110,7 @@ static void draw_heats(output *o, const bvh *b, const wide_tree *w) {
           heat_color((float)v[k].nodes / 60);
     }
   }
-  publish(o, "heat", im);
+  publish(o->folder, "heat", im);
   printf("nodes a pixel: binary %.1f, wide %.1f\n", sum[0] / (236 * 236),
          sum[1] / (236 * 236));
 }
@@ -191,7 +182,7 @@ static void draw_cuts(output *o) {
     im.pixels[at / 236 * 480 + 244 * k + at % 236] =
         heat_color((float)v.nodes / 120);
   }
-  publish(o, "cuts", im);
+  publish(o->folder, "cuts", im);
   printf("tangle of %u triangles: nodes a pixel %.1f -> %.1f, cost %.1f -> "
          "%.1f, %u parts more\n",
          m.triangles, sum[0] / (236 * 236), sum[1] / (236 * 236), b[0].cost,
@@ -298,7 +289,7 @@ static void draw_leaks(output *o) {
         count[1] += leaks[1];
       }
     }
-  publish(o, "fused", im);
+  publish(o->folder, "fused", im);
   printf("of %u rays leak: %u with fused edge functions, %u with facet's\n",
          rays, count[0], count[1]);
 }
@@ -334,7 +325,7 @@ static void draw_waiting(output *o) {
            vec3_lerp(color[r], vec3_all(1), 0.6f));
     }
   fill(im, 0, 94, 480, 1, (vec3){0.5f, 0.5f, 0.5f});
-  publish(o, "waiting", im);
+  publish(o->folder, "waiting", im);
 }
 
 // ---- Eight bits ----
@@ -371,7 +362,7 @@ static void draw_planes(output *o, const bvh *b, const wide_cost *costs) {
     outline(im, out, (vec3){0.85f, 0.25f, 0.1f}, 1);
     outline(im, box, (vec3){0.02f, 0.1f, 0.35f}, 2);
   }
-  publish(o, "planes", im);
+  publish(o->folder, "planes", im);
 }
 
 // ---- Visits ----

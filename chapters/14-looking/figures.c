@@ -1,7 +1,7 @@
 // figures.c — the pictures of chapter 14, and the numbers that its text quotes.
 
+#include "../easel.h"
 #include "clock.h"
-#include "picture.h"
 #include "post.h"
 #include "raster.h"
 #include "view_paths.h"
@@ -21,23 +21,11 @@ typedef struct output {
   gl *g;
 } output;
 
-// Say why not, and end.
-static void give_up(const error *err) {
-  fprintf(stderr, "%s\n", err->text);
-  exit(4);
-}
-
-static void publish(output *o, const char *name, image im) {
-  error err;
-  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (!picture_write(&im, path, PICTURE_PNG, 8, &err)) give_up(&err);
-}
-
 static void load(output *o, const char *path) {
   error err;
   scene_options so = {0};
   if (!scene_load(&o->scene, path, &so, &o->mem, o->threads, NULL, &err))
-    give_up(&err);
+    give_up(&err, 4);
 }
 
 static void fill(image *im, int x0, int y0, int w, int h, vec3 color) {
@@ -47,26 +35,12 @@ static void fill(image *im, int x0, int y0, int w, int h, vec3 color) {
         im->pixels[y * im->width + x] = color;
 }
 
-// A white canvas.
-static image canvas(output *o, int width, int height) {
-  image im = image_new(&o->mem, width, height);
-  fill(&im, 0, 0, width, height, vec3_all(1));
-  return im;
-}
-
-static void paste(image *to, const image *from, int x0, int y0) {
-  for (int y = 0; y < from->height; y++)
-    memcpy(to->pixels + (size_t)(y + y0) * (size_t)to->width + x0,
-           from->pixels + (size_t)y * (size_t)from->width,
-           (size_t)from->width * sizeof *from->pixels);
-}
-
 // n pictures of one size, `across` in a row, with 4 pixels between.
 static image sheet(output *o, const image *im, int n, int across) {
   int w = im->width + 4, h = im->height + 4, rows = (n + across - 1) / across;
-  image out = canvas(o, across * w - 4, rows * h - 4);
+  image out = paper(&o->mem, across * w - 4, rows * h - 4);
   for (int i = 0; i < n; i++)
-    paste(&out, &im[i], i % across * w, i / across * h);
+    paste(out, im[i], i % across * w, i / across * h);
   return out;
 }
 
@@ -95,7 +69,7 @@ static image traced(output *o, int width, int height, int spp) {
   error err;
   view_look look = {.camera = o->scene.cameras[0]};
   view_paths *p = paths_new(o, width, height);
-  if (!view_paths_restart(p, &look, &err)) give_up(&err);
+  if (!view_paths_restart(p, &look, &err)) give_up(&err, 4);
   return view_paths_finish(p, spp, &o->mem);
 }
 
@@ -119,7 +93,7 @@ static raster *open_raster(output *o, int width, int height) {
                          .lights = true,
                          .shadows = true,
                          .sky = true};
-  if (!raster_new(&r, o->g, &o->scene, &set, &o->mem, &err)) give_up(&err);
+  if (!raster_new(&r, o->g, &o->scene, &set, &o->mem, &err)) give_up(&err, 4);
   return r;
 }
 
@@ -129,7 +103,7 @@ static image drawn(output *o, raster *r, const camera *c, int width,
   camera_view view;
   if (!camera_view_of(&view, c, width, height, &err) ||
       !raster_draw(r, &view, &err))
-    give_up(&err);
+    give_up(&err, 4);
   return raster_read(r, &o->mem);
 }
 
@@ -146,7 +120,7 @@ static image draw_frame(output *o, const view_state *s, raster *r,
   error err;
   image im;
   if (s->paths) {
-    if (!view_paths_restart(p, &s->look, &err)) give_up(&err);
+    if (!view_paths_restart(p, &s->look, &err)) give_up(&err, 4);
     im = view_paths_finish(p, STRIP_SPP, &o->mem);
   } else {
     im = drawn(o, r, &s->look.camera, STRIP_WIDTH, STRIP_HEIGHT);
@@ -158,7 +132,8 @@ static void draw_strip(output *o) {
   error err;
   view_script script;
   span text = {FLIGHT, sizeof FLIGHT - 1};
-  if (!view_script_read(&script, text, "flight", &o->mem, &err)) give_up(&err);
+  if (!view_script_read(&script, text, "flight", &o->mem, &err))
+    give_up(&err, 4);
   raster *r = open_raster(o, STRIP_WIDTH, STRIP_HEIGHT);
   view_paths *p = paths_new(o, STRIP_WIDTH, STRIP_HEIGHT);
   view_state s =
@@ -171,7 +146,7 @@ static void draw_strip(output *o) {
       frames[n++] = draw_frame(o, &s, r, p);
   }
   raster_free(r);
-  publish(o, "flight", sheet(o, frames, 6, 3));
+  publish(o->folder, "flight", sheet(o, frames, 6, 3));
 }
 
 // Where grains look, from a picture whose colours are coordinates: dots about
@@ -183,7 +158,7 @@ static void draw_grains(output *o) {
     ramp.pixels[i] = (vec3){(float)(i % 400), (float)(i / 400), 0};
   image out = frosted(o, &ramp, RADIUS);
   for (int k = 0; k < 2; k++)
-    two[k] = canvas(o, SIDE, SIDE);
+    two[k] = paper(&o->mem, SIDE, SIDE);
   for (int i = 0; i < 1500; i++) {
     int x = 100 + i % 200, y = 100 + i / 200 * 20;
     vec3 p = out.pixels[y * 400 + x];
@@ -195,7 +170,7 @@ static void draw_grains(output *o) {
            SIDE / 2 + (int)floorf(d.y * by), 2, 2, (vec3){0.02f, 0.1f, 0.4f});
     }
   }
-  publish(o, "grains", sheet(o, two, 2, 2));
+  publish(o->folder, "grains", sheet(o, two, 2, 2));
 }
 
 // The garden: behind panes, and by stops.
@@ -206,11 +181,11 @@ static void draw_garden(output *o) {
     image pane = frosted(o, &im, RADII[i]);
     four[i] = exposed(o, &pane, 1.4f);
   }
-  publish(o, "frosted", sheet(o, four, 4, 2));
+  publish(o->folder, "frosted", sheet(o, four, 4, 2));
   image small = rastered(o, 156, 88);
   for (int i = 0; i < 3; i++)
     three[i] = exposed(o, &small, i == 0 ? 0.25f : i == 1 ? 1 : 4);
-  publish(o, "exposure", sheet(o, three, 3, 3));
+  publish(o->folder, "exposure", sheet(o, three, 3, 3));
 }
 
 static void draw_passes(output *o) {
@@ -220,7 +195,7 @@ static void draw_passes(output *o) {
     image im = traced(o, 156, 98, SPP[i]);
     four[i] = exposed(o, &im, 1);
   }
-  publish(o, "passes", sheet(o, four, 4, 2));
+  publish(o->folder, "passes", sheet(o, four, 4, 2));
 }
 
 // What the thread of the window does, from left to right: events (black),
@@ -228,7 +203,7 @@ static void draw_passes(output *o) {
 static void draw_timeline(output *o) {
   const vec3 ink = vec3_all(0.02f), blue = {0.05f, 0.2f, 0.6f},
              orange = {0.8f, 0.25f, 0.02f}, grey = vec3_all(0.75f);
-  image im = canvas(o, 480, 150);
+  image im = paper(&o->mem, 480, 150);
   // One thread: a pass of 220 pixels, three keys that wait for its end.
   for (int i = 0; i < 2; i++) {
     fill(&im, 4 + 234 * i, 34, 8, 20, blue);
@@ -250,7 +225,7 @@ static void draw_timeline(output *o) {
     fill(&im, key + 3, 90, 8, 20, blue);
   }
   fill(&im, 154, 114, 322, 20, orange);
-  publish(o, "timeline", im);
+  publish(o->folder, "timeline", im);
 }
 
 // Distance over time of two flights, at 30 and at 100 frames a second that
@@ -259,7 +234,7 @@ static void draw_speed(output *o) {
   image two[2];
   const vec3 colors[2] = {{0.8f, 0.25f, 0.02f}, {0.05f, 0.2f, 0.6f}};
   for (int k = 0; k < 2; k++) {
-    two[k] = canvas(o, 230, 150);
+    two[k] = paper(&o->mem, 230, 150);
     fill(&two[k], 10, 138, 216, 2, vec3_all(0));
     fill(&two[k], 10, 6, 2, 134, vec3_all(0));
     for (int m = 0; m < 2; m++) {
@@ -273,7 +248,7 @@ static void draw_speed(output *o) {
       }
     }
   }
-  publish(o, "speed", sheet(o, two, 2, 2));
+  publish(o->folder, "speed", sheet(o, two, 2, 2));
 }
 
 static int by_size(const void *a, const void *b) {
@@ -290,7 +265,7 @@ static void time_restarts(output *o) {
   view_look look = {.camera = o->scene.cameras[0]};
   view_paths *p = paths_new(o, 480, 270);
   double pass = clock_seconds();
-  if (!view_paths_restart(p, &look, &err)) give_up(&err);
+  if (!view_paths_restart(p, &look, &err)) give_up(&err, 4);
   view_paths_finish(p, 1, &once);
   pass = clock_seconds() - pass;
   view_paths_restart(p, &look, &err);
@@ -323,7 +298,7 @@ int main(int argc, char **argv) {
   o.threads = pool_new(&o.mem, pool_default_threads());
   o.tracers = pool_new(&o.mem, pool_default_threads() + 1);
   error err;
-  if (!gl_open(&o.g, GL_BACKEND_AUTO, &o.mem, &err)) give_up(&err);
+  if (!gl_open(&o.g, GL_BACKEND_AUTO, &o.mem, &err)) give_up(&err, 4);
   draw_timeline(&o);
   draw_speed(&o);
   draw_grains(&o);

@@ -1,10 +1,10 @@
 // figures.c — the pictures of chapter 15.
 
+#include "../easel.h"
 #include "adaptive.h"
 #include "doubling.h"
 #include "halves.h"
 #include "path.h"
-#include "picture.h"
 #include "plot.h"
 #include "render.h"
 #include "text.h"
@@ -21,20 +21,9 @@ typedef struct output {
   pool *threads;
 } output;
 
-static void give_up(const error *err) {
-  fprintf(stderr, "%s\n", err->text);
-  exit(4);
-}
-
-static void publish(output *o, const char *name, image im) {
-  error err;
-  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (!picture_write(&im, path, PICTURE_PNG, 8, &err)) give_up(&err);
-}
-
 static void publish_plot(output *o, const char *name, const plot *p) {
   sketch s = plot_sketch(p, &o->mem);
-  publish(o, name, sketch_image(&s, &o->mem));
+  publish(o->folder, name, sketch_image(&s, &o->mem));
 }
 
 // The font, in two sizes and two directions.
@@ -50,7 +39,7 @@ static void draw_letters(output *o) {
   sketch_type small = {8, 0.5f, true};
   pen.width = 1.3f;
   sketch_text(&s, pen, &small, (vec2){446, 75}, "a sentence upwards");
-  publish(o, "letters", sketch_image(&s, &o->mem));
+  publish(o->folder, "letters", sketch_image(&s, &o->mem));
 }
 
 // A picture of pixels with an edge through each: below the line it is 1.
@@ -226,7 +215,7 @@ static void garden_ready(output *o, garden *g) {
   scene_options so = {0};
   if (!scene_load(&g->scene, "scenes/garden.scene", &so, &o->mem, o->threads,
                   NULL, &err))
-    give_up(&err);
+    give_up(&err, 4);
   const mesh *m = &g->scene.mesh;
   bvh_build(&g->binary, m->positions, m->position_index,
             (uint32_t)m->triangle_count, BVH_SAH, &o->mem, o->threads);
@@ -259,7 +248,7 @@ static void draw_samples(output *o) {
   render_result r;
   if (!camera_view_of(&view, &g->scene.cameras[0], GARDEN_WIDTH, GARDEN_HEIGHT,
                       &err))
-    give_up(&err);
+    give_up(&err, 4);
   render_run(&r, &g->world, &view, &g->settings, &o->mem, o->threads);
   image out = image_new(&o->mem, 2 * GARDEN_WIDTH + 4, GARDEN_HEIGHT);
   float gain = exp2f(g->scene.exposure);
@@ -277,7 +266,7 @@ static void draw_samples(output *o) {
                             : vec3_all((float)srgb_decode(fmin(n, 1)));
     }
   printf("garden: %d samples a pixel on average, error %.4f\n", r.spp, r.error);
-  publish(o, "samples", out);
+  publish(o->folder, "samples", out);
 }
 
 // Lines of measured.csv, as facet bench error --csv printed them.
@@ -303,7 +292,7 @@ static int read_measured(output *o, measured *out) {
   span text, line;
   if (!text_read(&text, "chapters/15-time-against-error/measured.csv", &o->mem,
                  &err))
-    give_up(&err);
+    give_up(&err, 4);
   text_lines lines = text_lines_of(text, 1);
   int n = 0;
   while (text_next_line(&lines, &line)) {
