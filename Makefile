@@ -4,6 +4,7 @@
 # make bless-4       accept chapter 4's new pictures as the book's (look first)
 # make test          every test; ends in prove's summary
 # make bench         measurements that depend on the machine
+# make fuzz          strange files for every reader, SECONDS (300) each
 # make weave         refresh the listings of the chapters from the source
 # make book          the HTML book, build/book/index.html
 # make format        lay out the source with clang-format 14
@@ -146,6 +147,8 @@ test: build-tests
 
 bench: all
 	tests/bench/run
+
+include tests/fuzz/fuzz.mk
 
 BOOK := $(patsubst chapters/%/README.md,build/book/%.html,\
           $(wildcard chapters/*/README.md)) \

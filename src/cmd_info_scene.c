@@ -50,6 +50,7 @@ static bool read_facts(scene_facts *f, error *err) {
   scene_options so = {.normals = NORMALS_FILE,
                       .crease_deg = 180,
                       .skip_textures = true,
+                      .allow_outside = f->o->value[OPT_ALLOW_OUTSIDE].given,
                       .no_name_rules = f->o->value[OPT_NO_NAME_RULES].given,
                       .up_z = f->o->value[OPT_UP_AXIS].words == 1};
   f->remarks = (report){.mem = f->mem};
@@ -205,14 +206,22 @@ static void print_json_scene(const scene_facts *f) {
   json_end(&j);
 }
 
+// A text from a file as a terminal may see it.
+static const char *plain(arena *mem, const char *text) {
+  char *copy = arena_format(mem, "%s", text);
+  error_plain(copy);
+  return copy;
+}
+
 static void print_triple(const char *label, vec3 v) {
   printf("  %s %g %g %g", label, (double)v.x, (double)v.y, (double)v.z);
 }
 
 // One material for people: the decision, then the parameters in force.
-static void print_material(const material *m, size_t triangles) {
-  printf("material %s: %zu triangles\n", shown_name(m->name), triangles);
-  printf("  %s, %s\n ", model_name(m), m->why);
+static void print_material(const material *m, size_t triangles, arena *mem) {
+  const char *name = plain(mem, shown_name(m->name));
+  printf("material %s: %zu triangles\n", name, triangles);
+  printf("  %s, %s\n ", model_name(m), plain(mem, m->why));
   bool glass = m->kind == MATERIAL_GLASS, mirror = m->kind == MATERIAL_MIRROR;
   if (!glass && !mirror) print_triple("kd", m->kd);
   if (mirror || m->kind == MATERIAL_BLINN_PHONG) print_triple("ks", m->ks);
@@ -231,26 +240,31 @@ static void print_material(const material *m, size_t triangles) {
                                "map_Pm", "map_Bump", "norm"};
   for (size_t i = 0; i < sizeof maps / sizeof *maps; i++)
     if (maps[i]->options.path != NULL)
-      printf("\n    %s %s", names[i], maps[i]->options.path);
+      printf("\n    %s %s", names[i], plain(mem, maps[i]->options.path));
   printf("\n");
 }
 
 // Where each mtllib line led.
 static void print_libraries(const scene_facts *f) {
-  char *folder = path_folder(f->mem, f->path);
+  path_search where = {
+      .folder = path_folder(f->mem, f->path), .place = f->path, .mem = f->mem};
+  if (!f->o->value[OPT_ALLOW_OUTSIDE].given)
+    where.root = path_root(f->mem, f->path);
   for (size_t i = 0; i < f->m.library_count; i++) {
-    const char *tried = NULL;
     const char *name = f->m.libraries[i];
-    char *found = path_find(f->mem, folder, name, f->path, NULL, &tried);
-    printf("library   %s: %s\n", name, found ? found : "not found as one name");
+    path_found found = path_find(&where, name);
+    printf("library   %s: %s\n", plain(f->mem, name),
+           found.path      ? plain(f->mem, found.path)
+           : found.outside ? "outside of the folder"
+                           : "not found as one name");
   }
 }
 
 // Cameras, lights, environment.
-static void print_stage(const scene *s) {
+static void print_stage(const scene *s, arena *mem) {
   for (size_t i = 0; i < s->camera_count; i++) {
     const camera *c = &s->cameras[i];
-    printf("camera %s:", shown_name(c->name));
+    printf("camera %s:", plain(mem, shown_name(c->name)));
     print_triple("eye", c->eye);
     print_triple("target", c->target);
     printf("  fov %g\n", (double)c->fov_deg);
@@ -284,8 +298,8 @@ static void print_text_scene(const scene_facts *f) {
   printf("area      %.9g\n", mesh_area(m));
   print_libraries(f);
   for (size_t i = 0; f->has_scene && i < f->s.material_count; i++)
-    print_material(&f->s.materials[i], f->by_place[i]);
-  if (f->has_scene) print_stage(&f->s);
+    print_material(&f->s.materials[i], f->by_place[i], f->mem);
+  if (f->has_scene) print_stage(&f->s, f->mem);
 }
 
 int info_scene(const options *o, const char *path) {

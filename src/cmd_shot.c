@@ -38,6 +38,7 @@ int shot_read(shot *s) {
       .normals = (normals_mode)v[OPT_NORMALS].words,
       .crease_deg = v[OPT_CREASE].number[0],
       .no_name_rules = v[OPT_NO_NAME_RULES].given,
+      .allow_outside = v[OPT_ALLOW_OUTSIDE].given,
       .up_z = v[OPT_UP_AXIS].words == 1,
       .env = v[OPT_ENV].text,
   };

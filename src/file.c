@@ -16,23 +16,31 @@ static const char *kind_of_file(mode_t mode) {
   return "a device";
 }
 
-FILE *file_open(const char *path, error *err) {
+int file_descriptor(const char *path, uint64_t *size, error *err) {
   struct stat st;
   // A pipe without a writer would block an ordinary open for ever.
   int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
   if (fd < 0 || fstat(fd, &st) != 0) {
     fail(err, "%s: cannot be read: %s", path, strerror(errno));
-    if (fd >= 0) close(fd);
-    return NULL;
-  }
-  FILE *f = NULL;
-  if (!S_ISREG(st.st_mode))
+  } else if (!S_ISREG(st.st_mode)) {
     fail(err, "%s: is %s, expected a regular file", path,
          kind_of_file(st.st_mode));
-  else if ((f = fdopen(fd, "rb")) == NULL)
-    fail(err, "%s: cannot be read: %s", path, strerror(errno));
-  if (f == NULL) close(fd);
-  return f;
+  } else {
+    *size = (uint64_t)st.st_size;
+    return fd;
+  }
+  if (fd >= 0) close(fd);
+  return -1;
+}
+
+FILE *file_open(const char *path, error *err) {
+  uint64_t size;
+  int fd = file_descriptor(path, &size, err);
+  FILE *f = fd < 0 ? NULL : fdopen(fd, "rb");
+  if (f != NULL || fd < 0) return f;
+  fail(err, "%s: cannot be read: %s", path, strerror(errno));
+  close(fd);
+  return NULL;
 }
 
 uint64_t file_left(FILE *f) {

@@ -14,6 +14,9 @@
 // without waiting for whoever might write into the pipe.
 FILE *file_open(const char *path, error *err);
 
+// The same as a descriptor, with its size in bytes; -1 when it is refused.
+int file_descriptor(const char *path, uint64_t *size, error *err);
+
 // Bytes from here to the end of f; 0 when f cannot seek.
 uint64_t file_left(FILE *f);
 

@@ -9,10 +9,10 @@
 #include <string.h>
 
 bool material_list_written(const mtl_material **written, const mesh *m,
-                           const char *path, arena *mem, report *r,
-                           error *err) {
+                           const char *path, const char *root, arena *mem,
+                           report *r, error *err) {
   mtl_library lib = {0};
-  if (!mtl_read_all(&lib, m, path, mem, r, err)) return false;
+  if (!mtl_read_all(&lib, m, path, root, mem, r, err)) return false;
   for (size_t i = 0; i < m->material_count; i++) {
     long at = mtl_find(&lib, m->material_names[i]);
     written[i] = at < 0 ? NULL : &lib.materials[at];
@@ -165,14 +165,21 @@ bool material_list_decide(material_list *out, const mesh *m,
 static void load_map(texture_map *map, const mtl_material *w, mtl_key key,
                      texture_store *store, bool skip, report *r) {
   if (map->options.path == NULL || w == NULL) return;
-  const char *tried;
-  const char *place = arena_format(store->mem, "%s:%u", w->file, w->line[key]);
-  char *found =
-      path_find(store->mem, w->folder, map->options.path, place, r, &tried);
-  if (found != NULL && skip) return;
+  arena *mem = store->mem;
+  const char *place = arena_format(mem, "%s:%u", w->file, w->line[key]);
+  path_search where = {store->root, w->folder, place, mem, r};
+  path_found found = path_find(&where, map->options.path);
+  if (found.path != NULL && skip) return;
+  if (found.outside) {
+    const char *why = path_missing(&found, "texture", mem);
+    if (texture_refuse(store, found.tried, why))
+      report_warn(r, "%s: %s", place, why);
+    return;
+  }
   error why;
   size_t before = store->count;
-  map->image = texture_get(store, found != NULL ? found : tried, r, &why);
+  const char *path = found.path != NULL ? found.path : found.tried;
+  map->image = texture_get(store, path, r, &why);
   if (map->image == NULL && store->count != before)
     report_warn(r, "%s: texture left out: %s", place, why.text);
 }

@@ -18,9 +18,10 @@ typedef struct material_list {
 // Read the libraries of the mesh at path, and set written[i] to what they say
 // of its material_names[i], or to NULL.  A library that is missing is one
 // warning; a name that no library defines is one too, unless a library is
-// missing.
+// missing.  root is that of mtl_read_all.
 bool material_list_written(const mtl_material **written, const mesh *m,
-                           const char *path, arena *mem, report *r, error *err);
+                           const char *path, const char *root, arena *mem,
+                           report *r, error *err);
 
 // Decide for every run of m.  A material of the scene file goes before one of
 // the libraries with the same name.  Fails when an assign names no material.

@@ -83,9 +83,10 @@ bool mtl_read_text(mtl_library *lib, span text, const char *path, arena *mem,
 
 // Read every library that m names, looked for beside the OBJ at obj_path (its
 // path, for messages too): the whole rest of a mtllib line as one name first,
-// then each of its words.  One that is not there is a warning.
+// then each of its words.  One that is not there is a warning, and so is one
+// outside of root (path_root, or NULL).
 bool mtl_read_all(mtl_library *lib, const mesh *m, const char *obj_path,
-                  arena *mem, report *r, error *err);
+                  const char *root, arena *mem, report *r, error *err);
 
 // A material of that name in lib, appended when it is new; the pointer is good
 // until the next one is added.

@@ -111,40 +111,40 @@ bool mtl_read(mtl_library *lib, const char *path, arena *mem, report *r,
 // The libraries that have been read, by path; and what finding needs.
 typedef struct library_search {
   name_table done;
-  const char *folder, *place;
+  path_search where;
   arena *mem;
   report *r;
 } library_search;
 
-// Read the file found at path, once.
+// Read the file found at path, once, whatever it is called.
 static bool read_once(library_search *s, mtl_library *lib, const char *path,
                       error *err) {
   size_t before = s->done.count;
-  name_table_add(&s->done, (span){path, strlen(path)}, s->mem);
+  const char *real = path_real(s->mem, path);
+  name_table_add(&s->done, (span){real, strlen(real)}, s->mem);
   return s->done.count == before || mtl_read(lib, path, s->mem, s->r, err);
 }
 
 static void missing_library(const library_search *s, mtl_library *lib,
-                            const char *tried) {
-  report_warn(s->r, "%s: material library not found, tried %s", s->place,
-              tried);
+                            const path_found *f) {
+  report_warn(s->r, "%s: %s", s->where.place,
+              path_missing(f, "material library", s->mem));
   lib->missing++;
 }
 
-// The file of each word of name; *found counts them.  With lib, read them and
-// warn of those that are not there.
+// The file of each word of name; *found counts those that are somewhere.  With
+// lib, read them and warn of those that are not there.
 static bool read_words(library_search *s, mtl_library *lib, const char *name,
                        int *found, error *err) {
   span rest = {name, strlen(name)};
   *found = 0;
+  s->where.r = lib != NULL ? s->r : NULL;
   for (span word; (word = text_word(&rest)).length > 0;) {
-    const char *tried;
-    char *path = path_find(s->mem, s->folder, span_copy(s->mem, word), s->place,
-                           lib != NULL ? s->r : NULL, &tried);
-    *found += path != NULL;
+    path_found f = path_find(&s->where, span_copy(s->mem, word));
+    *found += f.path != NULL || f.outside;
     if (lib == NULL) continue;
-    if (path == NULL) missing_library(s, lib, tried);
-    if (path != NULL && !read_once(s, lib, path, err)) return false;
+    if (f.path == NULL) missing_library(s, lib, &f);
+    if (f.path != NULL && !read_once(s, lib, f.path, err)) return false;
   }
   return true;
 }
@@ -152,21 +152,25 @@ static bool read_words(library_search *s, mtl_library *lib, const char *name,
 // One mtllib line: the file of that name, or else the files of its words.
 static bool read_line_libraries(library_search *s, mtl_library *lib,
                                 const char *name, error *err) {
-  const char *tried;
-  char *path = path_find(s->mem, s->folder, name, s->place, s->r, &tried);
-  if (path != NULL) return read_once(s, lib, path, err);
+  s->where.r = s->r;
+  path_found f = path_find(&s->where, name);
+  if (f.path != NULL) return read_once(s, lib, f.path, err);
   int found;
   read_words(s, NULL, name, &found, err);
   if (found > 0) return read_words(s, lib, name, &found, err);
-  missing_library(s, lib, tried);
+  missing_library(s, lib, &f);
   return true;
 }
 
 bool mtl_read_all(mtl_library *lib, const mesh *m, const char *obj_path,
-                  arena *mem, report *r, error *err) {
-  library_search s = {.folder = path_folder(mem, obj_path), .mem = mem, .r = r};
+                  const char *root, arena *mem, report *r, error *err) {
+  library_search s = {
+      .where = {.root = root, .folder = path_folder(mem, obj_path), .mem = mem},
+      .mem = mem,
+      .r = r};
   for (size_t i = 0; i < m->library_count; i++) {
-    s.place = arena_format(mem, "%s:%" PRIu64, obj_path, m->library_lines[i]);
+    s.where.place =
+        arena_format(mem, "%s:%" PRIu64, obj_path, m->library_lines[i]);
     if (!read_line_libraries(&s, lib, m->libraries[i], err)) return false;
   }
   return true;

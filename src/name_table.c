@@ -35,6 +35,9 @@ static void name_table_grow(name_table *t, arena *mem) {
 
 int name_table_add(name_table *t, span name, arena *mem) {
   if (2 * t->count >= t->slot_count) name_table_grow(t, mem);
+  // A name that is not the string that it will be stored as.
+  if (name.length > 0 && memchr(name.at, '\0', name.length) != NULL)
+    name.at = span_copy(mem, name);
   size_t slot = name_slot(t, name);
   if (t->slots[slot] != 0) return (int)t->slots[slot] - 1;
   t->names[t->count++] = span_copy(mem, name);

@@ -91,7 +91,8 @@ void obj_merge_events(mesh *m, const obj_chunk *chunks, const obj_place *places,
     for (size_t j = 0; j < c->event_count; j++) {
       const obj_event *e = &c->events[j];
       close_run(&s, places[i].triangle + e->triangle);
-      span name = {c->names + e->name, e->length};
+      span name = {"", 0};
+      if (e->length > 0) name = (span){c->names + e->name, e->length};
       apply_event(&s, e, name, places[i].line, mem);
     }
   }

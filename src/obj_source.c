@@ -2,10 +2,10 @@
 
 #include "obj_source.h"
 
+#include "file.h"
+
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 // Read this much beyond a piece at first: nearly always the end of its last
@@ -25,15 +25,8 @@ bool obj_source_open(obj_source *out, const char *path, size_t piece,
     *out = s;
     return true;
   }
-  struct stat info;
-  if (stat(path, &info) != 0) return fail(err, "%s: %s", path, strerror(errno));
-  if (S_ISDIR(info.st_mode))
-    return fail(err, "%s: is a folder, expected an OBJ file", path);
-  if (!S_ISREG(info.st_mode))
-    return fail(err, "%s: is not a regular file", path);
-  s.file = open(path, O_RDONLY);
-  if (s.file < 0) return fail(err, "%s: %s", path, strerror(errno));
-  s.size = (uint64_t)info.st_size;
+  s.file = file_descriptor(path, &s.size, err);
+  if (s.file < 0) return false;
   *out = s;
   return true;
 }

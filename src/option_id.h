@@ -33,6 +33,7 @@ typedef enum option_id {
   OPT_NORMALS,
   OPT_CREASE,
   OPT_NO_NAME_RULES,
+  OPT_ALLOW_OUTSIDE,
   OPT_SPP,
   OPT_SPPS,
   OPT_TIME,

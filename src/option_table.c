@@ -188,6 +188,10 @@ const option option_table[OPTION_COUNT] = {
     [OPT_NO_NAME_RULES] = {"no-name-rules", 0, DRAWS | CMD_INFO, OPTION_SWITCH,
                            .help =
                                "names such as glass or mirror decide nothing"},
+    [OPT_ALLOW_OUTSIDE] =
+        {"allow-outside", 0, DRAWS | CMD_INFO, OPTION_SWITCH,
+         .help = "files of the scene may name others outside of the folder of "
+                 "SCENE: ../x.png, /x.png, links that lead there"},
     [OPT_SPP] = {"spp", 0, CMD_RENDER, OPTION_WHOLE, "N", "64", 1, 1 << 24,
                  .help = "samples a pixel; not limited where --time or --error "
                          "is given without it"},

@@ -1,9 +1,13 @@
 // path_find.c
 
+// For realpath, which POSIX has only with XSI.
+#define _XOPEN_SOURCE 700
+
 #include "path_find.h"
 
 #include <dirent.h>
-#include <stdbool.h>
+#include <limits.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -12,6 +16,25 @@ char *path_folder(arena *mem, const char *path) {
   if (slash == NULL) return arena_text(mem, ".", 1);
   if (slash == path) return arena_text(mem, "/", 1);
   return arena_text(mem, path, (size_t)(slash - path));
+}
+
+char *path_real(arena *mem, const char *path) {
+  char real[PATH_MAX];
+  if (realpath(path, real) != NULL) path = real;
+  return arena_text(mem, path, strlen(path));
+}
+
+char *path_root(arena *mem, const char *path) {
+  return path_real(mem, path_folder(mem, path));
+}
+
+bool path_is_inside(const char *root, const char *path) {
+  char real[PATH_MAX];
+  if (root == NULL) return true;
+  if (realpath(path, real) == NULL) return false;
+  size_t n = strlen(root);
+  if (n > 0 && root[n - 1] == '/') n--;
+  return strncmp(real, root, n) == 0 && (real[n] == '/' || real[n] == '\0');
 }
 
 // Whether something other than a folder lies at path.
@@ -54,41 +77,60 @@ static char *entry_any_case(arena *mem, const char *folder, const char *name) {
   return arena_format(mem, "%s%s%s", folder, slash, best);
 }
 
-// The file at path without regard to case, folder by folder; NULL when there
-// is none.
-static char *path_any_case(arena *mem, const char *path) {
-  char *rest = arena_text(mem, path, strlen(path));
-  char *found = arena_text(mem, "", 0);
-  if (*rest == '/') found = arena_text(mem, "/", 1);
+// The file of that name without regard to case, folder by folder; NULL when
+// there is none.  No folder outside of the root is looked into.
+static char *path_any_case(const path_search *s, const char *name) {
+  char *rest = arena_text(s->mem, name, strlen(name));
+  bool here = strcmp(s->folder, ".") == 0;
+  const char *from = *rest == '/' ? "/" : here ? "" : s->folder;
+  char *found = arena_text(s->mem, from, strlen(from));
   while (*rest != '\0') {
     char *part = rest;
     size_t n = strcspn(part, "/");
     rest += n;
     if (*rest == '/') *rest++ = '\0';
     if (*part == '\0') continue;
-    found = entry_any_case(mem, found, part);
+    if (!path_is_inside(s->root, *found != '\0' ? found : ".")) return NULL;
+    found = entry_any_case(s->mem, found, part);
     if (found == NULL) return NULL;
   }
   return is_there(found) ? found : NULL;
 }
 
-char *path_find(arena *mem, const char *folder, const char *name,
-                const char *place, report *r, const char **tried) {
-  char *clean = arena_text(mem, name, strlen(name));
+// Whether f ends with this candidate; one outside is remembered.
+static bool settle(path_found *f, const path_search *s, char *path) {
+  if (path == NULL || !is_there(path)) return false;
+  bool inside = path_is_inside(s->root, path);
+  if (inside) f->path = path;
+  if (!inside) f->outside = true;
+  return inside;
+}
+
+path_found path_find(const path_search *s, const char *name) {
+  char *clean = arena_text(s->mem, name, strlen(name));
   for (char *p = clean; *p != '\0'; p++)
     if (*p == '\\') *p = '/';
   const char *slash = strrchr(clean, '/');
   const char *last = slash != NULL ? slash + 1 : clean;
-  char *wanted = path_join(mem, folder, clean);
-  char *beside = path_join(mem, folder, last);
-  *tried = wanted;
-  if (*last == '\0') return NULL;
-  char *found = wanted;
-  if (!is_there(found)) found = beside;
-  if (!is_there(found)) found = path_any_case(mem, wanted);
-  if (found == NULL) found = path_any_case(mem, beside);
-  if (found == NULL) return NULL;
-  if (found != wanted || strcmp(clean, name) != 0)
-    report_note(r, "%s: \"%s\" found as \"%s\"", place, name, found);
-  return found;
+  char *wanted = path_join(s->mem, s->folder, clean);
+  path_found f = {.tried = wanted};
+  if (*last == '\0') return f;
+  if (!settle(&f, s, wanted) &&
+      !settle(&f, s, path_join(s->mem, s->folder, last)) &&
+      !settle(&f, s, path_any_case(s, clean)) &&
+      !settle(&f, s, path_any_case(s, last)))
+    return f;
+  f.outside = false;
+  if (f.path != wanted || strcmp(clean, name) != 0)
+    report_note(s->r, "%s: \"%s\" found as \"%s\"", s->place, name, f.path);
+  return f;
+}
+
+char *path_missing(const path_found *f, const char *what, arena *mem) {
+  if (!f->outside)
+    return arena_format(mem, "%s not found, tried %s", what, f->tried);
+  return arena_format(mem,
+                      "%s %s is outside of the folder of the scene, "
+                      "--allow-outside reads it",
+                      what, f->tried);
 }

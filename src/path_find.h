@@ -1,5 +1,5 @@
 // path_find.h — files named inside other files: found the way people's
-// exporters mean it.
+// exporters mean it, and not outside of the folder of the scene.
 
 #ifndef PATH_FIND_H
 #define PATH_FIND_H
@@ -7,15 +7,45 @@
 #include "arena.h"
 #include "report.h"
 
+#include <stdbool.h>
+
+// Where names are looked for, and who hears about it.
+typedef struct path_search {
+  const char *root;    // of path_root; NULL: names may lead anywhere
+  const char *folder;  // of the file that the name stands in
+  const char *place;   // "file:line"
+  arena *mem;
+  report *r;
+} path_search;
+
+// What a name led to.
+typedef struct path_found {
+  char *path;         // NULL when there is no such file
+  const char *tried;  // the path that was expected
+  bool outside;       // path is NULL, and there is one outside of the root
+} path_found;
+
 // The folder of a path ("." when it has none).
 char *path_folder(arena *mem, const char *path);
 
-// Find the file that `name` means, written in a file that lies in `folder`:
-// as it stands (back-slashes become slashes), relative to folder or absolute;
-// then its last component in folder; then the same without regard to case.
-// Anything but the first way is noted with place.  NULL when there is none:
-// *tried is then the path that was expected.
-char *path_find(arena *mem, const char *folder, const char *name,
-                const char *place, report *r, const char **tried);
+// A path without links and dots, which is the same for all names of a file;
+// the path itself where nothing is.
+char *path_real(arena *mem, const char *path);
+
+// The real path of the folder of the file that somebody asked for: what files
+// from there may name lies in it or below.
+char *path_root(arena *mem, const char *path);
+
+// Whether path, all links followed, lies below root; always when root is NULL.
+bool path_is_inside(const char *root, const char *path);
+
+// Find the file that `name` means: as it stands (back-slashes become slashes),
+// relative to the folder or absolute; then its last component in the folder;
+// then the same without regard to case.  Anything but the first way is noted.
+path_found path_find(const path_search *s, const char *name);
+
+// Why there is no path, for a message: "WHAT not found, tried PATH", or that
+// it is outside.
+char *path_missing(const path_found *f, const char *what, arena *mem);
 
 #endif

@@ -2,6 +2,8 @@
 
 #include "report.h"
 
+#include "error.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 
@@ -13,6 +15,7 @@ static void report_add(report *r, report_kind kind, const char *format,
   if (r->stored >= REPORT_MAX) return;
   char text[1024];
   vsnprintf(text, sizeof text, format, args);
+  error_plain(text);
   report_line *line = ARENA_NEW(r->mem, report_line, 1);
   *line = (report_line){kind, arena_format(r->mem, "%s", text), NULL};
   if (r->last != NULL) r->last->next = line;

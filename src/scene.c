@@ -16,6 +16,7 @@ typedef struct scene_loader {
   const scene_options *options;
   mesh *parts;                    // one per mesh statement
   const mtl_material ***written;  // per part and material name
+  const char *root;               // of path_root; NULL: no limits
   arena *mem;
   pool *threads;
   report *r;
@@ -54,6 +55,14 @@ static char *with_suffix(arena *mem, const char *path, const char *suffix) {
   return arena_format(mem, "%.*s%s", (int)stem_length(path), path, suffix);
 }
 
+// A file that nobody named is no way out either, should it be a link.
+static bool check_inside(scene_loader *l, const char *what, const char *path) {
+  struct stat info;
+  if (stat(path, &info) != 0 || path_is_inside(l->root, path)) return true;
+  path_found f = {.tried = path, .outside = true};
+  return fail(l->err, "%s", path_missing(&f, what, l->mem));
+}
+
 // The scene file that goes with path, read; without one the defaults, and the
 // mesh that path means.
 static bool load_file(scene_loader *l, const char *path) {
@@ -65,24 +74,26 @@ static bool load_file(scene_loader *l, const char *path) {
   bool have = is_scene ||
               (!is_stdin && stat(beside, &info) == 0 && !S_ISDIR(info.st_mode));
   *f = scene_file_default(path_folder(l->mem, path));
+  if (have && !is_scene && !check_inside(l, "scene file", beside)) return false;
   if (have && !scene_file_read(f, beside, l->mem, l->r, l->err)) return false;
   if (f->mesh_count > 0) return true;
   f->meshes = ARENA_NEW(l->mem, scene_source, 1);
   f->mesh_count = 1;
   f->meshes[0] = (scene_source){
       .path = is_scene ? with_suffix(l->mem, path, ".obj") : path, .scale = 1};
-  return true;
+  return !is_scene || check_inside(l, "mesh", f->meshes[0].path);
 }
 
 // Read mesh i and its libraries.
 static bool load_part(scene_loader *l, size_t i) {
   scene_source *m = &l->out->file.meshes[i];
   if (m->place != NULL && strcmp(m->path, "-") != 0) {
-    const char *tried, *folder = l->out->file.folder;
-    char *found = path_find(l->mem, folder, m->path, m->place, l->r, &tried);
-    if (found == NULL)
-      return fail(l->err, "%s: mesh not found, tried %s", m->place, tried);
-    m->path = found;
+    path_search where = {l->root, l->out->file.folder, m->place, l->mem, l->r};
+    path_found found = path_find(&where, m->path);
+    if (found.path == NULL)
+      return fail(l->err, "%s: %s", m->place,
+                  path_missing(&found, "mesh", l->mem));
+    m->path = found.path;
   }
   if (l->options->up_z) m->up_z = true;
   mesh *part = &l->parts[i];
@@ -95,8 +106,8 @@ static bool load_part(scene_loader *l, size_t i) {
   l->out->times.bytes += t.bytes;
   mesh_place(part, m->scale, m->up_z);
   l->written[i] = ARENA_NEW(l->mem, const mtl_material *, part->material_count);
-  return material_list_written(l->written[i], part, m->path, l->mem, l->r,
-                               l->err);
+  return material_list_written(l->written[i], part, m->path, l->root, l->mem,
+                               l->r, l->err);
 }
 
 // All meshes as one, with normals, and its materials.
@@ -122,7 +133,7 @@ static bool load_meshes(scene_loader *l) {
                             !o->no_name_rules, l->mem, l->err))
     return false;
   double start = load_clock();
-  s->textures = (texture_store){.mem = l->mem};
+  s->textures = (texture_store){.mem = l->mem, .root = l->root};
   material_list_textures(&list, &s->textures, o->skip_textures, l->r);
   s->seconds_textures += load_clock() - start;
   s->materials = list.materials;
@@ -135,23 +146,27 @@ static bool load_meshes(scene_loader *l) {
 static bool load_env(scene_loader *l) {
   scene_env *e = &l->out->file.env;
   const scene_options *o = l->options;
-  const char *folder = l->out->file.folder;
+  path_search where = {l->root, l->out->file.folder, NULL, l->mem, l->r};
   if (o->env != NULL) {
     scene_env given = scene_env_of_text(o->env, l->mem);
     given.rotate_deg = e->rotate_deg;
     given.scale = e->scale;
     *e = given;
-    folder = ".";
+    // Named by whoever runs facet.
+    where.folder = ".";
+    where.root = NULL;
   }
   if (o->env_rotate_deg != NULL) e->rotate_deg = *o->env_rotate_deg;
   if (o->env_scale != NULL) e->scale = *o->env_scale;
   env *out = &l->out->env;
   *out = (env){.kind = e->kind, .constant = e->constant};
   if (e->kind == ENV_MAP) {
-    const char *tried, *place = e->place == NULL ? "--env" : e->place;
-    e->path = path_find(l->mem, folder, e->path, place, l->r, &tried);
-    if (e->path == NULL)
-      return fail(l->err, "%s: environment not found, tried %s", place, tried);
+    where.place = e->place == NULL ? "--env" : e->place;
+    path_found found = path_find(&where, e->path);
+    if (found.path == NULL)
+      return fail(l->err, "%s: %s", where.place,
+                  path_missing(&found, "environment", l->mem));
+    e->path = found.path;
     double start = load_clock();
     if (!o->skip_textures && !env_load(out, e->path, l->mem, l->r, l->err))
       return false;
@@ -173,6 +188,7 @@ bool scene_load(scene *out, const char *path, const scene_options *options,
                     .threads = threads,
                     .r = r,
                     .err = err};
+  if (!l.options->allow_outside) l.root = path_root(mem, s.path);
   if (!load_file(&l, s.path) || !load_meshes(&l) || !load_env(&l)) return false;
   s.lights = s.file.lights;
   s.light_count = s.file.light_count;

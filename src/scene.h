@@ -17,6 +17,7 @@ typedef struct scene_options {
   bool no_name_rules;
   bool up_z;                                // the OBJ's up is +Z
   bool skip_textures;                       // for info: check, do not decode
+  bool allow_outside;                       // names may leave the folder
   const char *env;                          // FILE, R,G,B, sky or none
   const float *env_rotate_deg, *env_scale;  // NULL: not given
 } scene_options;
@@ -45,7 +46,9 @@ typedef struct scene {
 // .scene of the same stem beside it, when there is one), a .scene (whose mesh
 // is the .obj of the same stem unless it names one), or "-" (an OBJ on standard
 // input).  Missing libraries and textures are warnings; a missing mesh or
-// environment is an error.
+// environment is an error.  What the files name must lie in the folder of path
+// or below, all links followed, unless the options allow more; what is outside
+// counts as missing.
 bool scene_load(scene *out, const char *path, const scene_options *options,
                 arena *mem, pool *threads, report *r, error *err);
 

@@ -295,10 +295,8 @@ scene_file scene_file_default(const char *folder) {
   return (scene_file){.folder = folder, .env = {.kind = ENV_SKY, .scale = 1}};
 }
 
-bool scene_file_read(scene_file *out, const char *path, arena *mem, report *r,
-                     error *err) {
-  span text;
-  if (!text_read(&text, path, mem, err)) return false;
+bool scene_file_read_text(scene_file *out, span text, const char *path,
+                          arena *mem, report *r, error *err) {
   scene_file f = scene_file_default(path_folder(mem, path));
   f.path = arena_format(mem, "%s", path);
   scene_reader s = {.out = &f, .r = r};
@@ -314,6 +312,13 @@ bool scene_file_read(scene_file *out, const char *path, arena *mem, report *r,
   if (!ok || !cameras_complete(&f, err)) return false;
   *out = f;
   return true;
+}
+
+bool scene_file_read(scene_file *out, const char *path, arena *mem, report *r,
+                     error *err) {
+  span text;
+  return text_read(&text, path, mem, err) &&
+         scene_file_read_text(out, text, path, mem, r, err);
 }
 
 // Three numbers with commas between them and nothing else.

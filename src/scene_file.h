@@ -79,6 +79,11 @@ scene_file scene_file_default(const char *folder);
 bool scene_file_read(scene_file *out, const char *path, arena *mem, report *r,
                      error *err);
 
+// The same for the text of a scene file; path is for messages and for finding
+// what it names.
+bool scene_file_read_text(scene_file *out, span text, const char *path,
+                          arena *mem, report *r, error *err);
+
 // The environment that a command line names: FILE, R,G,B, sky or none.
 scene_env scene_env_of_text(const char *text, arena *mem);
 

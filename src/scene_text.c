@@ -154,6 +154,7 @@ static void say_materials(scene_writer *w, const scene *s) {
 
 char *scene_to_text(const scene *s, arena *mem) {
   scene_writer w = {0};
+  say(&w, "# For use in another folder: facet render --allow-outside\n");
   say_meshes(&w, s);
   if (s->film_width > 0) say(&w, "film %d %d\n", s->film_width, s->film_height);
   say(&w, "exposure %.9g\n", (double)s->exposure);

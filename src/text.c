@@ -2,12 +2,12 @@
 
 #include "text.h"
 
+#include "file.h"
 #include "number.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 // Standard input and files that do not know their size grow by this much.
 enum { TEXT_PIECE = 1 << 20 };
@@ -38,22 +38,11 @@ static bool read_stdin(span *out, arena *mem, error *err) {
   return ok || fail(err, "standard input: %s", strerror(errno));
 }
 
-// Why what lies at path cannot be read as a text file; NULL when it can.
-static const char *refusal(const char *path, struct stat *info) {
-  if (stat(path, info) != 0) return strerror(errno);
-  if (S_ISDIR(info->st_mode)) return "is a folder, expected a file";
-  if (!S_ISREG(info->st_mode)) return "is not a regular file";
-  return NULL;
-}
-
 bool text_read(span *out, const char *path, arena *mem, error *err) {
   if (strcmp(path, "-") == 0) return read_stdin(out, mem, err);
-  struct stat info;
-  const char *why = refusal(path, &info);
-  if (why != NULL) return fail(err, "%s: %s", path, why);
-  FILE *f = fopen(path, "rb");
-  if (f == NULL) return fail(err, "%s: %s", path, strerror(errno));
-  size_t size = (size_t)info.st_size;
+  FILE *f = file_open(path, err);
+  if (f == NULL) return false;
+  size_t size = (size_t)file_left(f);
   char *bytes = arena_alloc(mem, size + 1, 1);
   size_t length = fread(bytes, 1, size, f);
   bool ok = !ferror(f);
@@ -177,7 +166,10 @@ bool span_is(span s, const char *word) {
 }
 
 char *span_copy(arena *mem, span s) {
-  return arena_text(mem, s.at, s.length);
+  char *copy = arena_text(mem, s.at, s.length);
+  for (size_t i = 0; i < s.length; i++)
+    if (copy[i] == '\0') copy[i] = ' ';
+  return copy;
 }
 
 bool span_float(span s, float *out) {

@@ -50,6 +50,8 @@ span text_trim(span s);
 span text_uncomment(span s);
 
 bool span_is(span s, const char *word);
+
+// s as a string.  A NUL in it becomes a blank, which it counts as.
 char *span_copy(arena *mem, span s);
 
 // Parse all of s as a decimal float, correctly rounded (bit for bit strtof in

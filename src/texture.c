@@ -3,6 +3,7 @@
 #include "texture.h"
 
 #include "num.h"
+#include "path_find.h"
 
 #include <string.h>
 
@@ -45,8 +46,12 @@ static texture texture_of(texture_store *s, const char *path,
   return t;
 }
 
-// Append a texture to the store, doubling its room as needed.
-static texture *store_add(texture_store *s) {
+// The texture of that name, appended when it is new: *known says which.
+static texture *store_entry(texture_store *s, const char *name, bool *known) {
+  size_t i =
+      (size_t)name_table_add(&s->names, (span){name, strlen(name)}, s->mem);
+  *known = i < s->count;
+  if (*known) return s->textures[i];
   if (s->count == s->room) {
     size_t room = s->room == 0 ? 16 : 2 * s->room;
     texture **more = ARENA_NEW(s->mem, texture *, room);
@@ -57,27 +62,32 @@ static texture *store_add(texture_store *s) {
   return s->textures[s->count++] = ARENA_NEW(s->mem, texture, 1);
 }
 
+bool texture_refuse(texture_store *s, const char *path, const char *why) {
+  bool known;
+  texture *t = store_entry(s, path, &known);
+  if (known) return false;
+  *t = (texture){.path = arena_format(s->mem, "%s", path),
+                 .problem = arena_format(s->mem, "%s", why)};
+  return true;
+}
+
 const texture *texture_get(texture_store *s, const char *path, report *r,
                            error *err) {
-  for (size_t i = 0; i < s->count; i++) {
-    texture *t = s->textures[i];
-    if (strcmp(t->path, path) != 0) continue;
-    if (t->problem == NULL) return t;
-    fail(err, "%s", t->problem);
-    return NULL;
+  bool known;
+  texture *t = store_entry(s, path_real(s->mem, path), &known);
+  if (!known) {
+    if (s->decode == NULL) s->decode = decode_table(s->mem);
+    const char *own = arena_format(s->mem, "%s", path);
+    picture p;
+    if (picture_read(&p, path, s->mem, r, err))
+      *t = texture_of(s, own, &p);
+    else
+      *t = (texture){.path = own,
+                     .problem = arena_format(s->mem, "%s", err->text)};
   }
-  if (s->decode == NULL) s->decode = decode_table(s->mem);
-  const char *own = arena_format(s->mem, "%s", path);
-  picture p;
-  if (!picture_read(&p, path, s->mem, r, err)) {
-    texture *t = store_add(s);
-    *t = (texture){.path = own,
-                   .problem = arena_format(s->mem, "%s", err->text)};
-    return NULL;
-  }
-  texture *t = store_add(s);
-  *t = texture_of(s, own, &p);
-  return t;
+  if (t->problem == NULL) return t;
+  fail(err, "%s", t->problem);
+  return NULL;
 }
 
 // Channel c of the texel, as light when `color` asks for it.

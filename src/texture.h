@@ -19,10 +19,13 @@ typedef struct texture {
   const char *problem;  // why it could not be read, else NULL
 } texture;
 
-// Files by path, each decoded once.  Start with {.mem = arena}.
+// Files by their real paths, each decoded once whatever it is called.  Start
+// with {.mem = arena}.
 typedef struct texture_store {
   texture **textures;
   size_t count, room;
+  name_table names;  // name number = texture number
+  const char *root;  // of path_root, for who looks for files; may be NULL
   arena *mem;
   float *decode;
 } texture_store;
@@ -31,6 +34,9 @@ typedef struct texture_store {
 // file that failed is not tried again, but fails with the same message.
 const texture *texture_get(texture_store *s, const char *path, report *r,
                            error *err);
+
+// Remember that path is not to be read, and why; false when that is known.
+bool texture_refuse(texture_store *s, const char *path, const char *why);
 
 // A texture as a material uses it.
 typedef struct texture_map {

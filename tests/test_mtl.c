@@ -166,7 +166,7 @@ static size_t read_libraries(const char *obj, report *r, arena *mem,
   char *path = put(mem, "x.obj", obj, strlen(obj));
   assert_true(obj_read(&m, path, mem, NULL, NULL, NULL, &err));
   *lib = (mtl_library){0};
-  assert_true(mtl_read_all(lib, &m, path, mem, r, &err));
+  assert_true(mtl_read_all(lib, &m, path, NULL, mem, r, &err));
   return lib->count;
 }
 

@@ -55,7 +55,8 @@ static loaded *load_text(const char *text) {
   assert_non_null(f);
   fputs(text, f);
   fclose(f);
-  loaded *l = load_path(path, NULL);
+  scene_options from_here = {.allow_outside = true};
+  loaded *l = load_path(path, &from_here);
   remove(path);
   rmdir(folder);
   return l;

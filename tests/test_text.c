@@ -174,14 +174,20 @@ static void files_are_found_as_they_are_meant(void **state) {
   for (size_t i = 0; i < sizeof SEARCHES / sizeof SEARCHES[0]; i++) {
     const search *s = &SEARCHES[i];
     report r = {.mem = &mem};
-    const char *tried = NULL;
-    char *found = path_find(&mem, folder, s->name, "x.obj:1", &r, &tried);
+    path_search where = {NULL, folder, "x.obj:1", &mem, &r};
+    path_found found = path_find(&where, s->name);
     char *wanted = arena_format(&mem, "%s/%s", folder, s->found);
-    if (*s->found == '\0') assert_null(found);
-    if (*s->found != '\0') assert_string_equal(found, wanted);
+    if (*s->found == '\0') assert_null(found.path);
+    if (*s->found != '\0') assert_string_equal(found.path, wanted);
     assert_int_equal(r.notes, s->notes);
     assert_int_equal(r.warnings, 0);
-    assert_non_null(tried);
+    assert_non_null(found.tried);
+    assert_false(found.outside);
+    // None of these leaves the folder.
+    where.root = path_root(&mem, arena_format(&mem, "%s/x.obj", folder));
+    path_found again = path_find(&where, s->name);
+    assert_int_equal(again.path != NULL, found.path != NULL);
+    assert_false(again.outside);
   }
   arena_free(&mem);
 }
@@ -207,7 +213,7 @@ static void only_regular_files_are_read(void **state) {
   assert_false(text_read(&s, folder, &mem, &err));
   assert_false(text_read(&s, "/dev/zero", &mem, &err));
   assert_false(text_read(&s, "/nowhere/at/all", &mem, &err));
-  assert_non_null(strstr(err.text, "/nowhere/at/all: No such file"));
+  assert_non_null(strstr(err.text, "/nowhere/at/all: cannot be read: No such"));
   assert_int_equal(s.length, 7);
   remove(fifo);
   arena_free(&mem);
