@@ -4,7 +4,7 @@
 #ifndef VIEW_PATHS_H
 #define VIEW_PATHS_H
 
-#include "path_naive.h"
+#include "path_world.h"
 #include "pool.h"
 #include "view_state.h"
 

@@ -15,7 +15,8 @@ static inline double chi_tail(double x, int k) {
 }
 
 // The probability of counts as far as these from what is expected, where both
-// are of cells of one partition; cells are pooled to an expected 5.
+// are of cells of one partition; cells are pooled to an expected 5.  What is
+// left at the end may not be many where next to none are expected.
 static inline double chi_probability(const double *got, const double *want,
                                      size_t n) {
   double sum = 0, of_got = 0, of_want = 0;
@@ -28,6 +29,7 @@ static inline double chi_probability(const double *got, const double *want,
     of_got = of_want = 0;
     cells++;
   }
+  if (of_got >= 30) return 0;
   return cells < 2 ? 1 : chi_tail(sum, cells - 1);
 }
 

@@ -3,6 +3,7 @@
 #ifndef GL_WORLDS_H
 #define GL_WORLDS_H
 
+#include "gl_api.h"
 #include "raster.h"
 #include "worlds.h"
 
@@ -14,6 +15,21 @@ static inline gl *gl_or_skip(gl_backend b, arena *mem) {
   print_message("# SKIP %s\n", err.text);
   skip();
   return NULL;
+}
+
+// A stage of a program, put together from n pieces of text.
+static inline GLuint compiled(const gl_api *f, GLenum stage, int n,
+                              const char *const *text) {
+  GLuint s = f->CreateShader(stage);
+  GLint ok;
+  char log[2000] = "";
+  f->ShaderSource(s, n, text, NULL);
+  f->CompileShader(s);
+  f->GetShaderiv(s, GL_COMPILE_STATUS, &ok);
+  f->GetShaderInfoLog(s, sizeof log, NULL, log);
+  if (!ok) print_message("# %s\n", log);
+  assert_true(ok);
+  return s;
 }
 
 // What a world looks like to the rasteriser.

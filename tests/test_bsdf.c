@@ -1,6 +1,7 @@
 // test_bsdf.c — laws of scattering functions.
 
 #include "bsdf.h"
+#include "chi.h"
 #include "num.h"
 #include "rng.h"
 
@@ -28,14 +29,6 @@ static vec3 at_angle(float cos_theta, float turns) {
 static bsdf rough(vec3 kd, vec3 ks, float ns) {
   bsdf_kind kind = vec3_peak(ks) > 0 ? BSDF_BLINN_PHONG : BSDF_LAMBERT;
   return (bsdf){.kind = kind, .kd = kd, .ks = ks, .ns = ns};
-}
-
-// The probability that a chi-square variable of k degrees of freedom exceeds
-// x.  Source: Wilson and Hilferty 1931.
-static double chi_square_tail(double x, int k) {
-  double v = 2.0 / (9.0 * k);
-  double z = (cbrt(x / k) - (1 - v)) / sqrt(v);
-  return 0.5 * erfc(z / sqrt(2.0));
 }
 
 enum { ROWS = 12, COLUMNS = 24, CELLS = ROWS * COLUMNS };
@@ -86,24 +79,12 @@ static counted count_samples(const bsdf *b, vec3 wo, long n, uint64_t seed) {
   return c;
 }
 
-// Chi-square of counts against probabilities, cells pooled until 5 are
-// expected.
+// The probability of counts as far from what is expected as these.
 static double fit(const counted *c, const double *expected, long n) {
-  double chi = 0, want = 0, got = 0;
-  int cells = 0;
-  for (int i = 0; i <= CELLS; i++) {
-    want += expected[i] * (double)n;
-    got += c->cells[i];
-    if (want < 5 && i < CELLS) continue;
-    if (want >= 5) {
-      chi += (got - want) * (got - want) / want;
-      cells++;
-    } else {
-      assert_true(got < 30);
-    }
-    want = got = 0;
-  }
-  return chi_square_tail(chi, cells - 1);
+  double want[CELLS + 1];
+  for (int i = 0; i <= CELLS; i++)
+    want[i] = expected[i] * (double)n;
+  return chi_probability(c->cells, want, CELLS + 1);
 }
 
 static void check_sampler(bsdf b, float cos_o, uint64_t seed) {

@@ -1,6 +1,7 @@
 // test_bsdf_rough.c — laws of the triple of metallic-roughness.
 
 #include "bsdf_rough.h"
+#include "chi.h"
 #include "num.h"
 
 #include <setjmp.h>
@@ -120,14 +121,6 @@ static double hemisphere_integral(const integrand *g) {
   return sum;
 }
 
-// The probability that a chi-square variable of k degrees of freedom exceeds
-// x.  Source: Wilson and Hilferty 1931.
-static double chi_square_tail(double x, int k) {
-  double v = 2.0 / (9.0 * k);
-  double z = (cbrt(x / k) - (1 - v)) / sqrt(v);
-  return 0.5 * erfc(z / sqrt(2.0));
-}
-
 // What the samples of one surface do.
 typedef struct counted {
   double cells[CELLS + 1];  // the last: nothing scattered
@@ -159,24 +152,12 @@ static counted count_samples(const bsdf_rough *b, vec3 wo, long n,
   return c;
 }
 
-// Chi-square of counts against probabilities, cells pooled until 5 are
-// expected.
+// The probability of counts as far from what is expected as these.
 static double fit(const counted *c, const double *expected, long n) {
-  double chi = 0, want = 0, got = 0;
-  int cells = 0;
-  for (int i = 0; i <= CELLS; i++) {
-    want += expected[i] * (double)n;
-    got += c->cells[i];
-    if (want < 5 && i < CELLS) continue;
-    if (want >= 5) {
-      chi += (got - want) * (got - want) / want;
-      cells++;
-    } else {
-      assert_true(got < 30);
-    }
-    want = got = 0;
-  }
-  return cells < 2 ? 1 : chi_square_tail(chi, cells - 1);
+  double want[CELLS + 1];
+  for (int i = 0; i <= CELLS; i++)
+    want[i] = expected[i] * (double)n;
+  return chi_probability(c->cells, want, CELLS + 1);
 }
 
 static void check_sampler(bsdf_rough b, sampler_case at, uint64_t seed) {

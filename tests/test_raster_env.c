@@ -31,20 +31,6 @@ static const char WHOLE_SCREEN[] =
     "  gl_Position = vec4(p, 0.0, 1.0);\n"
     "}\n";
 
-static GLuint stage_of(const gl_api *f, GLenum kind, int n,
-                       const char *const *text) {
-  GLuint s = f->CreateShader(kind);
-  GLint ok;
-  char log[2000] = "";
-  f->ShaderSource(s, n, text, NULL);
-  f->CompileShader(s);
-  f->GetShaderiv(s, GL_COMPILE_STATUS, &ok);
-  f->GetShaderInfoLog(s, sizeof log, NULL, log);
-  if (!ok) print_message("# %s\n", log);
-  assert_true(ok);
-  return s;
-}
-
 static GLuint level_program(const gl_api *f, const char *defines) {
   const char *vertex[] = {WHOLE_SCREEN};
   const char *fragment[] = {"#version 330 core\n#define ENV_KIND 2\n",
@@ -54,8 +40,8 @@ static GLuint level_program(const gl_api *f, const char *defines) {
                             glsl_text("ibl.glsl"),
                             READ_LEVELS};
   GLuint p = f->CreateProgram();
-  f->AttachShader(p, stage_of(f, GL_VERTEX_SHADER, 1, vertex));
-  f->AttachShader(p, stage_of(f, GL_FRAGMENT_SHADER, 6, fragment));
+  f->AttachShader(p, compiled(f, GL_VERTEX_SHADER, 1, vertex));
+  f->AttachShader(p, compiled(f, GL_FRAGMENT_SHADER, 6, fragment));
   f->LinkProgram(p);
   return p;
 }

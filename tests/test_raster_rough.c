@@ -73,20 +73,6 @@ static texel in_c(texel wo, texel wi) {
   return t;
 }
 
-static GLuint compiled(const gl_api *f, GLenum stage, int n,
-                       const char *const *text) {
-  GLuint s = f->CreateShader(stage);
-  GLint ok;
-  char log[2000] = "";
-  f->ShaderSource(s, n, text, NULL);
-  f->CompileShader(s);
-  f->GetShaderiv(s, GL_COMPILE_STATUS, &ok);
-  f->GetShaderInfoLog(s, sizeof log, NULL, log);
-  if (!ok) print_message("# %s\n", log);
-  assert_true(ok);
-  return s;
-}
-
 static GLuint twin_program(const gl_api *f) {
   const char *vertex[] = {VERTEX};
   const char *fragment[] = {"#version 330 core\n", glsl_text("num.glsl"),
