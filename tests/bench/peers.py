@@ -7,7 +7,11 @@ Needs `pip install mitsuba numpy`, and an LLVM of 17 or later for the fast
 variant (libllvm19).  Prints, for balls, lump, room and cornell-balls, the
 median seconds to render and relMSE = mean((x - ref)^2 / (ref^2 + 0.01)) of
 both at each number of samples, and then the seconds to each error, between
-the measured points.  The reference is Mitsuba's own, rendered once with
+the measured points.  With --z-test instead: do both converge to the same
+picture?  Each renders with --parts seeds; their means' difference over its
+standard deviation, in every pixel and channel, passes where it is no less
+likely than 1 in 100 for the largest of as many (Sidak); 99.75 % have to.
+Source: the render tests of Mitsuba 3, Subr and Arvo 2007.  The reference is Mitsuba's own, rendered once with
 --reference samples and kept in the folder; scripts that compare facet with
 itself are facet bench error's matter.
 """
@@ -202,6 +206,28 @@ def compare(name, options):
             print("%-14s relMSE %-6g facet %8.4f s  mitsuba %8.4f s  ratio %.2f" % (name, mark, ours, theirs, theirs / ours))
 
 
+def parts_of(draw, parts):
+    """The mean of independent pictures, and the variance of that mean."""
+    pictures = np.stack([draw(7000 + k) for k in range(parts)])
+    return pictures.mean(0), pictures.var(0, ddof=1) / parts
+
+
+def z_test(name, options):
+    path = options.folder / (name + ".scene")
+    scene, width, height = load_scene(path)
+    out = str(options.folder / "peers.pfm")
+    spp = options.spp[-1]
+    theirs = parts_of(lambda seed: by_mitsuba(scene, spp, seed)[0], options.parts)
+    ours = parts_of(lambda seed: by_facet(options.facet, path, spp, seed, out)[0], options.parts)
+    # Where neither saw anything vary, the rounding of sums is what is left.
+    z = (ours[0] - theirs[0]) / np.sqrt(ours[1] + theirs[1] + (1e-6 * (1 + theirs[0])) ** 2)
+    alpha = 1 - 0.99 ** (1 / z.size)
+    limit = statistics.NormalDist().inv_cdf(1 - alpha / 2)
+    print("%-14s %d x %d spp  pass %.4f %%  |z| < 3 %.3f %%  mean z %+.4f  z^2 %.3f  mean ratio %.5f" % (
+        name, options.parts, spp, 100 * np.mean(np.abs(z) < limit), 100 * np.mean(np.abs(z) < 3), z.mean(),
+        np.mean(z * z), ours[0].mean() / theirs[0].mean()), flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     numbers = lambda kind: lambda text: [kind(w) for w in text.split(",")]
@@ -212,6 +238,8 @@ def main():
     parser.add_argument("--repeat", default=3, type=int)
     parser.add_argument("--marks", default="0.1,0.03,0.01,0.003", type=numbers(float))
     parser.add_argument("--reference", default=2048, type=int)
+    parser.add_argument("--z-test", action="store_true")
+    parser.add_argument("--parts", default=32, type=int)
     parser.add_argument("--variant", default="llvm_ad_rgb")
     options = parser.parse_args()
     mi.set_variant(options.variant)
@@ -220,7 +248,7 @@ def main():
     scene = (ROOT / "scenes" / "cornell-balls.scene").read_text()
     (options.folder / "cornell-balls.scene").write_text(scene.replace("400 400", "256 256"))
     for name in options.scenes:
-        compare(name, options)
+        (z_test if options.z_test else compare)(name, options)
 
 
 main()
