@@ -5,10 +5,6 @@
 #include "render.h"
 
 #include "clock.h"
-#include "film.h"
-#include "first_hit.h"
-#include "tally.h"
-
 #include <stdatomic.h>
 
 enum { TILE = RENDER_TILE };
@@ -39,22 +35,20 @@ typedef struct worker {
   char apart[64];
 } worker;
 
-// The averages beside the radiance.
-typedef struct first_films {
-  film normal, depth, albedo;
-} first_films;
-
 // One call of render_run.
 typedef struct job {
   const path_world *world;
   const camera_view *view;
   const render_settings *set;
   int x0, y0, width, height;  // the crop window
-  int tiles_across, tile_count, run;
-  film color;
-  first_films first;
+  shard shard;                // of that
+  int tile_count, run;        // its tiles, and how many a thread takes at once
+  double pixels;              // of these tiles; 1 where there are none
+  render_sums sums;
+  tally kept;             // of those who rendered before
   float farthest;         // of the scene along the view axis
   int begin, end;         // the samples of this pass, unless there is a guide
+  uint32_t first;         // that was taken by this run
   double before, during;  // samples of all pixels: taken, and in this pass
   double pass_start;
   atomic_int done;  // its finished tiles
@@ -75,13 +69,6 @@ static vec3 shade_first(const job *j, const first_hit *f) {
   case RENDER_RADIANCE: break;
   }
   return vec3_all(0);
-}
-
-static void add_first(first_films *films, size_t i, const first_hit *f) {
-  if (films->normal.sum != NULL) film_add(&films->normal, i, f->normal);
-  if (films->albedo.sum != NULL) film_add(&films->albedo, i, f->albedo);
-  if (films->depth.sum != NULL && f->found)
-    film_add(&films->depth, i, vec3_all(f->depth));
 }
 
 static bool wants_first(const render_settings *s) {
@@ -120,33 +107,29 @@ static void end_samples(job *j, worker *w) {
       tally_drop(t, s->sample, s->pixel);
       continue;
     }
-    film_add(&j->color, w->pixels[k], color);
+    film_add(&j->sums.color, w->pixels[k], color);
     const render_guide *g = j->set->guide;
     if (g != NULL) g->add(g->self, w->pixels[k], s->sample, color);
-    if (firsts) add_first(&j->first, w->pixels[k], &first);
+    if (firsts) render_sums_add_first(&j->sums, w->pixels[k], &first);
   }
   t->samples += w->count;
   w->count = 0;
 }
 
-static double pixel_count(const job *j) {
-  return (double)j->width * (double)j->height;
-}
-
 // Samples of all pixels.
 static double samples_done(const job *j) {
-  double tiles = (double)atomic_load(&j->done) / (double)j->tile_count;
+  double tiles = (double)atomic_load(&j->done) / fmax((double)j->tile_count, 1);
   return j->before + tiles * j->during;
 }
 
 // Samples a pixel, on average.
 static int spp_so_far(const job *j) {
-  return (int)((j->before + j->during) / pixel_count(j) + 0.5);
+  return (int)((j->before + j->during) / j->pixels + 0.5);
 }
 
 // The share of the whole that is done, by samples, by error or by time.
 static double share_done(const job *j, double now) {
-  double share = samples_done(j) / (pixel_count(j) * (double)j->set->spp);
+  double share = samples_done(j) / (j->pixels * (double)j->set->spp);
   if (j->set->error > 0 && j->error > 0) {
     double root = j->set->error / j->error;
     if (root * root > share) share = root * root;
@@ -178,12 +161,11 @@ static bool next_sample(const job *j, size_t tile, uint32_t *at,
 
 // The samples of this pass in one tile; a few may be left taken up.
 static void render_tile(job *j, size_t tile, worker *w) {
-  int tx = (int)tile % j->tiles_across * TILE;
-  int ty = (int)tile / j->tiles_across * TILE;
+  film_box box = shard_box(&j->shard, tile);
   uint32_t at = 0, sample;
   while (next_sample(j, tile, &at, &sample)) {
-    for (int y = ty; y < ty + TILE && y < j->height; y++)
-      for (int x = tx; x < tx + TILE && x < j->width; x++)
+    for (int y = box.y0; y < box.y1; y++)
+      for (int x = box.x0; x < box.x1; x++)
         start_sample(j, x, y, sample, w);
     if (w->count + TILE * TILE > INTEGRATOR_BATCH) end_samples(j, w);
   }
@@ -196,11 +178,12 @@ static void render_tiles(void *context, size_t item, int number) {
   int begin = (int)item * j->run, end = begin + j->run;
   if (end > j->tile_count) end = j->tile_count;
   const render_guide *g = j->set->guide;
-  for (int tile = begin; tile < end; tile++) {
-    render_tile(j, (size_t)tile, w);
+  for (int k = begin; k < end; k++) {
+    size_t tile = shard_tile(&j->shard, (size_t)k);
+    render_tile(j, tile, w);
     if (g == NULL || g->spend == NULL) continue;
     end_samples(j, w);
-    g->spend(g->self, (size_t)tile, w->spent);
+    g->spend(g->self, tile, w->spent);
     w->spent = 0;
   }
   end_samples(j, w);
@@ -215,26 +198,27 @@ static void render_tiles(void *context, size_t item, int number) {
 // deadline, after a first pass of one.
 static int pass_samples(const job *j) {
   const render_settings *s = j->set;
-  int done = j->end, left = s->spp - done;
-  bool waits =
-      s->deadline > 0 || s->error > 0 || s->stop != NULL || s->progress != NULL;
-  if (!waits || left < 1) return left;
-  if (done == 0) return 1;
+  int done = j->end, fresh = done - (int)j->first, left = s->spp - done;
+  bool waits = s->deadline > 0 || s->error > 0 || s->stop != NULL ||
+               s->progress != NULL || s->keep != NULL;
+  if (!waits || left < 1) return left > 0 ? left : 0;
+  if (fresh == 0) return 1;
   if (s->stop != NULL && *s->stop) return 0;
   if (s->error > 0 && done >= ERROR_MIN_SPP && j->error <= s->error) return 0;
-  double now = clock_seconds(), each = (now - j->start) / done;
+  double now = clock_seconds(), each = (now - j->start) / fresh;
   double room = PASS_SECONDS;
   if (s->deadline > 0) {
     if (now + each > s->deadline) return 0;
     room = fmin(room, s->deadline - now);
   }
-  double n = fmin(fmin(room / fmax(each, 1e-9), 4.0 * done), (double)left);
+  double n = fmin(fmin(room / fmax(each, 1e-9), 4.0 * fresh), (double)left);
   return n < 1 ? 1 : (int)n;
 }
 
 // Seconds for one sample of one pixel, as it was so far and in the last pass.
 static double sample_seconds(const job *j, double now) {
-  double all = (now - j->start) / fmax(j->before + j->during, 1);
+  double fresh = j->before + j->during - (double)j->kept.samples;
+  double all = (now - j->start) / fmax(fresh, 1);
   double last = (now - j->pass_start) / fmax(j->during, 1);
   return fmax(fmax(all, last), 1e-12);
 }
@@ -243,7 +227,7 @@ static double sample_seconds(const job *j, double now) {
 static double guided_samples(const job *j) {
   const render_settings *s = j->set;
   const render_guide *g = s->guide;
-  render_budget b = {2 * pixel_count(j), (double)INFINITY};
+  render_budget b = {2 * j->pixels, (double)INFINITY};
   if (!(j->during > 0)) return g->plan(g->self, &b);
   if (s->stop != NULL && *s->stop) return 0;
   double now = clock_seconds(), each = sample_seconds(j, now);
@@ -262,7 +246,7 @@ static double guided_samples(const job *j) {
 static bool plan_pass(job *j) {
   bool guided = j->set->guide != NULL && j->set->guide->plan != NULL;
   int n = guided ? 0 : pass_samples(j);
-  double all = guided ? guided_samples(j) : n * pixel_count(j);
+  double all = guided ? guided_samples(j) : n * j->pixels;
   j->before += j->during;
   j->during = all;
   j->begin = j->end;
@@ -273,18 +257,8 @@ static bool plan_pass(job *j) {
 
 static double error_so_far(const job *j) {
   const render_guide *g = j->set->guide;
-  return g != NULL ? g->error(g->self) : film_error(&j->color);
-}
-
-static void make_films(job *j, arena *mem) {
-  const render_settings *s = j->set;
-  int w = j->width, h = j->height;
-  bool squares = (s->guide == NULL && (s->error > 0 || s->progress != NULL)) ||
-                 (s->aovs & RENDER_AOV_VARIANCE) != 0;
-  j->color = film_new(mem, w, h, squares);
-  if (s->aovs & RENDER_AOV_NORMAL) j->first.normal = film_new(mem, w, h, false);
-  if (s->aovs & RENDER_AOV_DEPTH) j->first.depth = film_new(mem, w, h, false);
-  if (s->aovs & RENDER_AOV_ALBEDO) j->first.albedo = film_new(mem, w, h, false);
+  if (g != NULL) return g->error(g->self);
+  return j->shard.count > 1 ? 0 : film_error(&j->sums.color);
 }
 
 static worker *hire_workers(const job *j, arena *mem) {
@@ -298,44 +272,18 @@ static worker *hire_workers(const job *j, arena *mem) {
   return team;
 }
 
-static void sum_tallies(render_result *out, const job *j) {
-  tally all = {0};
+// What all have counted until now.
+static void count_all(job *j) {
+  j->sums.tally = j->kept;
   for (int i = 0; i < j->workers; i++)
-    tally_add(&all, &j->team[i].tally);
-  out->rays = all.paths.rays;
-  out->cut = all.paths.cut;
-  out->samples = all.samples;
-  out->non_finite = all.non_finite;
-  out->bad_x = (int)(all.bad_pixel % (uint64_t)j->set->width);
-  out->bad_y = (int)(all.bad_pixel / (uint64_t)j->set->width);
-  out->bad_sample = (int)all.bad_sample;
+    tally_add(&j->sums.tally, &j->team[i].tally);
+  j->sums.taken = (uint32_t)j->end;
 }
 
-// A picture of what the guide says of each pixel.
-static image guided_image(const job *j, vec3 (*of)(const void *, size_t),
-                          arena *mem) {
-  image out = image_new(mem, j->width, j->height);
-  for (size_t i = 0; i < (size_t)j->width * (size_t)j->height; i++)
-    out.pixels[i] = of(j->set->guide->self, i);
-  return out;
-}
-
-// Images in the order of the bits of render_settings.aovs.
-static void make_images(render_result *out, const job *j, arena *mem) {
-  const film *of[RENDER_AOV_COUNT] = {&j->first.normal, &j->first.depth,
-                                      &j->first.albedo, NULL, NULL};
-  const render_guide *g = j->set->guide;
-  bool guided = g != NULL && g->mean != NULL;
-  out->color =
-      guided ? guided_image(j, g->mean, mem) : film_image(&j->color, mem);
-  for (int i = 0; i < RENDER_AOV_COUNT; i++)
-    if (of[i] != NULL && of[i]->sum != NULL)
-      out->aov[i] = film_image(of[i], mem);
-  if (j->set->aovs & RENDER_AOV_VARIANCE)
-    out->aov[3] = guided ? guided_image(j, g->variance, mem)
-                         : film_variance_image(&j->color, mem);
-  if (j->set->aovs & RENDER_AOV_SAMPLES)
-    out->aov[4] = film_count_image(&j->color, mem);
+static void keep_sums(job *j, bool last) {
+  const render_keep *k = j->set->keep;
+  count_all(j);
+  if (k != NULL) k->save(k->self, &j->sums, last);
 }
 
 // Give the picture so far to whoever asked for it since the last pass.
@@ -346,7 +294,7 @@ static void hand_snapshot(const job *j) {
   arena once = {0};
   render_result so_far = {.spp = spp_so_far(j), .error = j->error};
   so_far.seconds = clock_seconds() - j->start;
-  make_images(&so_far, j, &once);
+  render_sums_images(&so_far, &j->sums, s->aovs, s->guide, &once);
   s->on_snapshot(s->snapshot_context, &so_far);
   arena_free(&once);
 }
@@ -357,9 +305,40 @@ static void render_passes(job *j, pool *threads) {
     size_t runs = (size_t)((j->tile_count + j->run - 1) / j->run);
     pool_run(threads, runs, render_tiles, j);
     j->error = error_so_far(j);
+    keep_sums(j, false);
     hand_snapshot(j);
   }
+  keep_sums(j, true);
   if (j->set->progress != NULL) tell_progress(j, clock_seconds());
+}
+
+// Films for the sums, empty or with what is kept.
+static void ready_sums(job *j, arena *mem) {
+  const render_settings *s = j->set;
+  bool squares = s->keep != NULL || (s->aovs & RENDER_AOV_VARIANCE) != 0 ||
+                 (s->guide == NULL && (s->error > 0 || s->progress != NULL));
+  if (s->keep == NULL || !s->keep->load(s->keep->self, &j->sums))
+    j->sums = render_sums_new(j->width, j->height, s->aovs, squares, mem);
+  j->kept = j->sums.tally;
+  j->before = (double)j->kept.samples;
+  j->first = j->sums.taken;
+  j->end = (int)j->first;
+}
+
+// The window, and which of its tiles are to be rendered.
+static void choose_tiles(job *j) {
+  const render_settings *s = j->set;
+  bool crop = s->x1 > 0;
+  j->x0 = crop ? s->x0 : 0, j->y0 = crop ? s->y0 : 0;
+  j->width = crop ? s->x1 - s->x0 : s->width;
+  j->height = crop ? s->y1 - s->y0 : s->height;
+  int shards = s->shards > 0 ? s->shards : 1;
+  j->shard = (shard){j->width, j->height, s->shard, shards};
+  j->tile_count = (int)shard_tiles(&j->shard);
+  j->pixels = fmax((double)shard_pixels(&j->shard), 1);
+  j->run = j->tile_count / (RUNS * j->workers);
+  if (j->run < 1) j->run = 1;
+  if (j->run > TILE_RUN) j->run = TILE_RUN;
 }
 
 void render_run(render_result *out, const path_world *world,
@@ -367,28 +346,20 @@ void render_run(render_result *out, const path_world *world,
                 arena *mem, pool *threads) {
   const render_settings *s = settings;
   job j = {.world = world, .view = view, .set = s, .start = clock_seconds()};
-  bool crop = s->x1 > 0;
-  j.x0 = crop ? s->x0 : 0, j.y0 = crop ? s->y0 : 0;
-  j.width = crop ? s->x1 - s->x0 : s->width;
-  j.height = crop ? s->y1 - s->y0 : s->height;
-  j.tiles_across = (j.width + TILE - 1) / TILE;
-  j.tile_count = j.tiles_across * ((j.height + TILE - 1) / TILE);
   j.farthest = first_hit_farthest(world->scene, view);
   j.last_progress = j.start;
   arena scratch = {0};
   path_naive naive = {world, s->seed};
   j.by = s->by != NULL ? *s->by : path_naive_integrator(&naive);
   j.workers = threads == NULL ? 1 : pool_threads(threads);
-  j.run = j.tile_count / (RUNS * j.workers);
-  if (j.run < 1) j.run = 1;
-  if (j.run > TILE_RUN) j.run = TILE_RUN;
+  choose_tiles(&j);
   j.team = hire_workers(&j, &scratch);
-  make_films(&j, &scratch);
+  ready_sums(&j, &scratch);
   render_passes(&j, threads);
   *out = (render_result){.spp = spp_so_far(&j), .error = j.error};
   out->stopped = s->stop != NULL && *s->stop && out->spp < s->spp;
-  sum_tallies(out, &j);
-  make_images(out, &j, mem);
+  render_sums_counts(out, &j.sums, s->width);
+  render_sums_images(out, &j.sums, s->aovs, s->guide, mem);
   arena_free(&scratch);
   out->seconds = clock_seconds() - j.start;
 }

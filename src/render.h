@@ -7,6 +7,7 @@
 #include "path_naive.h"
 #include "pool.h"
 #include "render_guide.h"
+#include "render_keep.h"
 
 #include <signal.h>
 
@@ -19,19 +20,6 @@ typedef enum render_shading {
   RENDER_ALBEDO
 } render_shading;
 
-// Bits of render_settings.aovs, and indices of render_result.aov by position.
-// Normal, depth and albedo are means over the samples' first surfaces; what
-// sees none counts 0, for depth not at all.  Variance is that of the mean, 0
-// after one sample.
-enum {
-  RENDER_AOV_NORMAL = 1,
-  RENDER_AOV_DEPTH = 2,
-  RENDER_AOV_ALBEDO = 4,
-  RENDER_AOV_VARIANCE = 8,
-  RENDER_AOV_SAMPLES = 16,
-  RENDER_AOV_COUNT = 5
-};
-
 typedef struct render_progress {
   double done;     // share of the work, 0..1
   double seconds;  // since rendering began
@@ -39,22 +27,10 @@ typedef struct render_progress {
   double error;  // estimated relative error of the picture, 0: not known
 } render_progress;
 
-typedef struct render_result {
-  image color;                  // of the crop window
-  image aov[RENDER_AOV_COUNT];  // pixels NULL where not asked for
-  int spp;                      // samples a pixel, on average
-  double seconds;
-  double error;  // estimated relative error, 0: not estimated
-  uint64_t rays, samples;
-  uint64_t cut;                  // paths ended by path_naive's limit
-  uint64_t non_finite;           // samples dropped
-  int bad_x, bad_y, bad_sample;  // the first of them, in the full film
-  bool stopped;                  // before spp, by *stop
-} render_result;
-
 typedef struct render_settings {
   int width, height;
   int x0, y0, x1, y1;  // crop, half-open; all of the film when x1 is 0
+  int shard, shards;   // only the tiles of that one, 0..shards-1; 0: all
   int spp;             // total
   uint64_t seed;
   const integrator *by;  // NULL: path_naive with that seed
@@ -63,6 +39,7 @@ typedef struct render_settings {
   double deadline;            // CLOCK_MONOTONIC seconds to stop at; 0: none
   double error;               // stop at this estimated relative error; 0: never
   const render_guide *guide;  // NULL: none
+  const render_keep *keep;    // NULL: nobody keeps the sums
   const volatile sig_atomic_t *stop;  // finish the pass when it turns non-zero
   void (*progress)(void *context, const render_progress *p);  // may be NULL
   void *progress_context;

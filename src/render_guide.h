@@ -4,14 +4,13 @@
 #ifndef RENDER_GUIDE_H
 #define RENDER_GUIDE_H
 
-#include "vec.h"
+#include "shard.h"
 
 #include <stddef.h>
 #include <stdint.h>
 
-// Pixels a side of a tile, the item of work of a thread.  Tiles are numbered
-// row by row from the upper left corner of the window.
-enum { RENDER_TILE = 16 };
+// Pixels a side of a tile, the item of work of a thread.
+enum { RENDER_TILE = SHARD_TILE };
 
 // Samples (one is one of one pixel) for which there is time.
 typedef struct render_budget {
