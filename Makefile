@@ -58,11 +58,12 @@ CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_spl
              vertex_many_kernel vertex_many_base vertex_many_avx2 vertex_many_avx512 vertex_many
 CHAPTER_14 := $(CHAPTER_12) post view_state view_script view_paths view_window
 CHAPTER_15 := $(CHAPTER_14) glyph sketch plot two_means halves adaptive doubling
-LIBRARY   := $(CHAPTER_15)
-CHAPTERS  := 1 2 3 4 5 6 7 8 9 10 11 12 14 15 17
+CHAPTER_16 := $(CHAPTER_15) bytes digest scene_digest part part_read part_set
+LIBRARY   := $(CHAPTER_16)
+CHAPTERS  := 1 2 3 4 5 6 7 8 9 10 11 12 14 15 16 17
 # The command line, the only floor that prints and exits.
 COMMAND   := json tonemap progress option_id option_table option cmd_shared cmd_signals \
-             cmd_output cmd_tree cmd_shot cmd_raster cmd_render cmd_view_say cmd_view cmd_info_scene \
+             cmd_output cmd_tree cmd_shot cmd_raster cmd_keep cmd_render_say cmd_render cmd_merge cmd_view_say cmd_view cmd_info_scene \
              cmd_info cmd_compare cmd_bench cmd_bench_raster cmd_ibl cmd_bench_ibl \
              cmd_child cmd_error_run cmd_bench_error \
              help_text cmd_manual cmd_completion cmd_help main

@@ -264,3 +264,30 @@ render_guide adaptive_guide(adaptive *a) {
                         adaptive_mean,
                         adaptive_variance};
 }
+
+void adaptive_tiles(const adaptive *a, adaptive_tile *out) {
+  for (size_t i = 0; i < a->tile_count; i++) {
+    const tile_state *t = &a->tiles[i];
+    out[i] = (adaptive_tile){{t->pass[0], t->pass[1]},
+                             {t->round[0], t->round[1]},
+                             (uint64_t)t->rays};
+  }
+}
+
+const halves *adaptive_sums(const adaptive *a) {
+  return &a->halves;
+}
+
+void adaptive_go_on(adaptive *a, const adaptive_tile *tiles, const halves *h) {
+  for (int k = 0; k < 2; k++)
+    film_copy(&a->halves.half[k], &h->half[k]);
+  for (size_t i = 0; i < a->tile_count; i++) {
+    tile_state *t = &a->tiles[i];
+    for (int k = 0; k < 2; k++) {
+      t->taken[k] = t->pass[k] = tiles[i].taken[k];
+      t->round[k] = tiles[i].round[k];
+    }
+    t->rays = (double)tiles[i].rays;
+    ask_tile(a, i);
+  }
+}

@@ -5,6 +5,7 @@
 #define ADAPTIVE_H
 
 #include "arena.h"
+#include "halves.h"
 #include "render_guide.h"
 
 typedef struct adaptive adaptive;
@@ -21,5 +22,18 @@ typedef struct adaptive_settings {
 adaptive *adaptive_new(const adaptive_settings *s, arena *mem);
 
 render_guide adaptive_guide(adaptive *a);
+
+// How far a tile is.
+typedef struct adaptive_tile {
+  uint32_t taken[2], round[2];  // samples of each half: now, at the round's end
+  uint64_t rays;
+} adaptive_tile;
+
+// Between two passes: what there is of each tile, row by row, and the sums.
+void adaptive_tiles(const adaptive *a, adaptive_tile *out);
+const halves *adaptive_sums(const adaptive *a);
+
+// Go on from there, before the first pass.  The sums are copied.
+void adaptive_go_on(adaptive *a, const adaptive_tile *tiles, const halves *h);
 
 #endif

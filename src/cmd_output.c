@@ -9,8 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-// Whether a file can be created in the folder of path: 0, or why not.
-static int folder_problem(const char *path, arena *mem) {
+int output_problem(const char *path, arena *mem) {
   const char *slash = strrchr(path, '/');
   size_t n = slash == NULL ? 0 : (size_t)(slash - path) + 1;
   const char *folder = n == 0 ? "." : arena_text(mem, path, n);
@@ -28,40 +27,58 @@ static int folder_problem(const char *path, arena *mem) {
 static int choose_format(output *out) {
   const options *o = out->o;
   static const picture_format formats[] = {PICTURE_PNG, PICTURE_PFM,
-                                           PICTURE_HDR};
+                                           PICTURE_HDR, PICTURE_UNKNOWN};
+  const option_value *v = &o->value[OPT_FORMAT];
   out->format = picture_format_of(out->path);
-  if (o->value[OPT_FORMAT].given)
-    out->format = formats[o->value[OPT_FORMAT].words];
+  out->part = cmd_has_suffix(out->path, ".part");
+  if (v->given) {
+    out->format = formats[v->words];
+    out->part = v->words == 3;
+  }
+  if (out->part) return EXIT_DONE;
   for (int i = 0; i < 3; i++)
     if (out->format == formats[i]) return EXIT_DONE;
   if (strcmp(out->path, "-") == 0)
-    return cmd_fail(o, EXIT_USAGE, "-o - needs --format png, pfm or hdr");
+    return cmd_fail(o, EXIT_USAGE, "-o - needs --format png, pfm, hdr or part");
   return cmd_fail(o, EXIT_USAGE,
                   "%s: cannot tell the format from this suffix, expected "
-                  ".png, .pfm or .hdr, or --format",
+                  ".png, .pfm, .hdr or .part, or --format",
                   out->path);
 }
 
-// The paths of the AOVs: NAME.normal.pfm beside NAME.png.
-static void name_aovs(output *out, arena *mem) {
+// NAME.normal.pfm beside NAME.png.
+void output_name_aovs(output *out, unsigned aovs, arena *mem) {
   const option *o = &option_table[OPT_AOV];
   char word[32], suffix[64];
   for (unsigned i = 0; i < RENDER_AOV_COUNT; i++) {
-    if ((out->o->value[OPT_AOV].words >> i & 1) == 0) continue;
+    if ((aovs >> i & 1) == 0) continue;
     option_word(o, i, word, sizeof word);
     snprintf(suffix, sizeof suffix, ".%s.pfm", word);
     out->aov[i] = cmd_beside(mem, out->path, suffix);
   }
 }
 
+// STEM.2-of-8.part for --shard 2/8.
+static const char *shard_path(const options *o, const char *stem, arena *mem) {
+  char *path = arena_format(mem, "%s.%s.part", stem, o->value[OPT_SHARD].text);
+  char *slash = strchr(path + strlen(stem), '/');
+  if (slash == NULL) return path;
+  *slash = 0;
+  return arena_format(mem, "%s-of-%s", path, slash + 1);
+}
+
 int output_plan(output *out, const options *o, arena *mem) {
   *out = (output){.o = o, .path = o->value[OPT_OUTPUT].text};
+  out->radiance = o->value[OPT_SHADING].words < 3;
   const char *in = o->operands[0];
   if (out->path == NULL) {
     const char *stem = strcmp(in, "-") == 0 ? "stdin" : cmd_stem(mem, in);
-    const char *const suffixes[] = {"png", "pfm", "hdr"};
-    out->path =
-        arena_format(mem, "%s.%s", stem, suffixes[o->value[OPT_FORMAT].words]);
+    const char *const suffixes[] = {"png", "pfm", "hdr", "part"};
+    unsigned format = o->value[OPT_FORMAT].words;
+    if (o->value[OPT_SHARD].given && !o->value[OPT_FORMAT].given)
+      out->path = shard_path(o, stem, mem);
+    else
+      out->path = arena_format(mem, "%s.%s", stem, suffixes[format]);
   }
   int code = choose_format(out);
   if (code != EXIT_DONE) return code;
@@ -83,22 +100,25 @@ int output_plan(output *out, const options *o, arena *mem) {
                       "send standard output elsewhere");
     return EXIT_DONE;
   }
-  name_aovs(out, mem);
-  int problem = folder_problem(out->path, mem);
+  if (!out->part) output_name_aovs(out, o->value[OPT_AOV].words, mem);
+  int problem = output_problem(out->path, mem);
   if (problem == 0) return EXIT_DONE;
   return cmd_fail(o, EXIT_OUTPUT, "%s: cannot be written: %s", out->path,
                   strerror(problem));
 }
 
 void output_warn(const output *out, report *r) {
+  static const option_id of_png[] = {OPT_DEPTH, OPT_TONEMAP, OPT_EXPOSURE};
+  static const option_id of_merge[] = {OPT_DEPTH, OPT_TONEMAP, OPT_POST};
   if (out->format == PICTURE_PNG) return;
-  const option_id useless[] = {OPT_DEPTH, OPT_EXPOSURE, OPT_TONEMAP};
+  const option_id *useless = out->part ? of_merge : of_png;
   for (int i = 0; i < 3; i++)
     if (out->o->value[useless[i]].given)
-      report_warn(r,
-                  "--%s has no effect on %s: only PNG has it, this format "
-                  "keeps linear radiance",
-                  option_table[useless[i]].name, out->path);
+      report_warn(r, "--%s has no effect on %s: %s",
+                  option_table[useless[i]].name, out->path,
+                  out->part ? "facet merge has it"
+                            : "only PNG has it, this format keeps linear "
+                              "radiance");
 }
 
 // Whether both paths lead to one file.
@@ -108,8 +128,7 @@ static bool same_file(const char *a, const char *b) {
          x.st_ino == y.st_ino;
 }
 
-// The path written over the input of that name: one of out's, or NULL.
-static const char *overwritten(const output *out, const char *input) {
+const char *output_overwrites(const output *out, const char *input) {
   if (input == NULL) return NULL;
   if (same_file(out->path, input)) return out->path;
   for (int i = 0; i < RENDER_AOV_COUNT; i++)
@@ -120,19 +139,19 @@ static const char *overwritten(const output *out, const char *input) {
 
 int output_protect_inputs(const output *out, const scene *s, arena *mem) {
   const char *in = out->o->operands[0];
-  const char *bad = overwritten(out, in);
+  const char *bad = output_overwrites(out, in);
   const char *beside[] = {".obj", ".scene", ".mtl"};
   for (int i = 0; i < 3 && bad == NULL; i++)
-    bad = overwritten(out, cmd_beside(mem, in, beside[i]));
+    bad = output_overwrites(out, cmd_beside(mem, in, beside[i]));
   for (size_t i = 0; i < s->textures.count && bad == NULL; i++)
-    bad = overwritten(out, s->textures.textures[i]->path);
+    bad = output_overwrites(out, s->textures.textures[i]->path);
   for (size_t i = 0; i < s->mesh.library_count && bad == NULL; i++) {
     const char *slash = strrchr(in, '/');
     int folder = slash == NULL ? 0 : (int)(slash - in) + 1;
-    bad = overwritten(
+    bad = output_overwrites(
         out, arena_format(mem, "%.*s%s", folder, in, s->mesh.libraries[i]));
   }
-  if (bad == NULL) bad = overwritten(out, out->o->value[OPT_ENV].text);
+  if (bad == NULL) bad = output_overwrites(out, out->o->value[OPT_ENV].text);
   if (bad == NULL) return EXIT_DONE;
   return cmd_fail(out->o, EXIT_USAGE, "%s: is an input; write somewhere else",
                   bad);
@@ -140,9 +159,8 @@ int output_protect_inputs(const output *out, const scene *s, arena *mem) {
 
 // Whether exposure and curve change the picture.
 static bool is_developed(const output *out) {
-  bool radiance = out->o->value[OPT_SHADING].words < 3;
   bool curve = out->o->value[OPT_TONEMAP].words != TONEMAP_NONE;
-  return out->format == PICTURE_PNG && radiance &&
+  return out->format == PICTURE_PNG && out->radiance &&
          (out->exposure != 0 || curve);
 }
 

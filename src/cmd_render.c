@@ -1,47 +1,15 @@
 // cmd_render.c — facet render: from a scene and a command line to a picture.
 
-#include "cmd_output.h"
-#include "cmd_raster.h"
-#include "cmd_shot.h"
+#include "cmd_render_say.h"
+
 #include "cmd_signals.h"
-#include "cmd_tree.h"
 
 #include "adaptive.h"
 #include "clock.h"
 #include "doubling.h"
-#include "halves.h"
-#include "path.h"
-#include "progress.h"
 #include "vertex_many.h"
 
-#include <math.h>
 #include <string.h>
-#include <sys/resource.h>
-
-// The engines, in the order of the words of --engine.
-typedef enum engine { ENGINE_RASTER, ENGINE_PATH, ENGINE_AUTO } engine;
-
-// One run, stage by stage.
-typedef struct render_job {
-  const options *o;
-  shot shot;
-  output out;
-  engine engine;
-  raster_job raster;  // of one engine
-  cmd_tree tree;      // of the other, with
-  path_world world;   // what it traces
-  light_set lights;   // and looks for
-  path_tracer paths;  // by one of these
-  path_naive naive;
-  integrator by;
-  integrator twice;  // by, for both halves
-  halves_walk halves;
-  render_guide guide;
-  render_settings settings;  // and how
-  render_result result;
-  progress display;
-  double write_seconds;
-} render_job;
 
 // Seconds that writing a picture takes, for each pixel: what --time keeps in
 // reserve.  Noise compresses worst: the garden at one sample a pixel took 0.36
@@ -63,11 +31,15 @@ enum { PATH_AOVS = RENDER_AOV_VARIANCE | RENDER_AOV_SAMPLES };
 static int plan_engine(render_job *j) {
   const option_value *v = j->o->value;
   j->engine = (engine)v[OPT_ENGINE].words;
-  if ((v[OPT_AOV].words & PATH_AOVS) == 0) return EXIT_DONE;
+  const char *what = NULL;
+  if (v[OPT_AOV].words & PATH_AOVS) what = "--aov variance and samples need";
+  if (j->out.part) what = "a .part is made of samples and needs";
+  if (v[OPT_CHECKPOINT].given) what = "--checkpoint needs";
+  if (v[OPT_SHARD].given) what = "--shard needs";
+  if (what == NULL) return EXIT_DONE;
   if (j->engine == ENGINE_AUTO) j->engine = ENGINE_PATH;
   if (j->engine == ENGINE_PATH) return EXIT_DONE;
-  return cmd_fail(j->o, EXIT_USAGE,
-                  "--aov variance and samples need --engine path");
+  return cmd_fail(j->o, EXIT_USAGE, "%s --engine path", what);
 }
 
 // Warn of flags that only the other engine knows.
@@ -106,12 +78,19 @@ static int choose_engine(render_job *j) {
   return EXIT_DONE;
 }
 
+// Write the picture, or what can be made one.
+static bool write_result(render_job *j, const render_result *r, arena *mem,
+                         error *err) {
+  if (j->out.part) return part_write(&j->keep.part, j->out.path, err);
+  return output_write(&j->out, r, mem, err);
+}
+
 // Write the picture; an exit code.
 static int write_picture(render_job *j) {
   error err;
   arena once = {0};
   double start = clock_seconds();
-  bool ok = output_write(&j->out, &j->result, &once, &err);
+  bool ok = write_result(j, &j->result, &once, &err);
   j->write_seconds = clock_seconds() - start;
   arena_free(&once);
   return ok ? EXIT_DONE : cmd_fail(j->o, EXIT_OUTPUT, "%s", err.text);
@@ -126,7 +105,7 @@ static void write_snapshot(void *context, const render_result *so_far) {
   progress_clear(&j->display);
   if (strcmp(j->out.path, "-") == 0)
     cmd_fail(j->o, EXIT_OUTPUT, "no picture so far on standard output");
-  else if (!output_write(&j->out, so_far, &once, &err))
+  else if (!write_result(j, so_far, &once, &err))
     cmd_fail(j->o, EXIT_OUTPUT, "%s", err.text);
   else if (!given(j, OPT_QUIET))
     fprintf(stderr, "%s: %d spp so far\n", j->out.path, so_far->spp);
@@ -171,95 +150,6 @@ static void choose_settings(render_job *j) {
       &sh->scene, (pbr_model)v[OPT_PBR_MODEL].words, sh->mem, sh->threads);
 }
 
-// The most memory that the process has had, in bytes.
-static double peak_bytes(void) {
-  struct rusage use;
-  if (getrusage(RUSAGE_SELF, &use) != 0) return 0;
-  return (double)use.ru_maxrss * 1024;
-}
-
-// The line that ends a run, for people.
-static void print_summary(const render_job *j) {
-  const render_result *r = &j->result;
-  char warnings[64] = "no warnings", samples[32];
-  int n = j->shot.remarks.warnings;
-  if (n > 0)
-    snprintf(warnings, sizeof warnings, "%d warning%s", n, n == 1 ? "" : "s");
-  if (j->engine == ENGINE_PATH)
-    snprintf(samples, sizeof samples, "%d spp", r->spp);
-  else
-    snprintf(samples, sizeof samples, "raster");
-  fprintf(stderr, "%s: %dx%d, %s, %.2f s, %zu triangles, %s%s\n",
-          strcmp(j->out.path, "-") == 0 ? "standard output" : j->out.path,
-          r->color.width, r->color.height, samples,
-          clock_seconds() - j->o->started, j->shot.scene.mesh.triangle_count,
-          warnings, r->stopped ? "; stopped early" : "");
-}
-
-// The seconds of every stage.
-static void json_seconds(json *j, const render_job *job) {
-  const raster_times *t = &job->raster.times;
-  json_open(j, "seconds", '{');
-  json_number(j, "total", clock_seconds() - job->o->started);
-  json_number(j, "load", job->shot.scene.seconds_load);
-  json_number(j, "textures", job->shot.scene.seconds_textures);
-  if (job->engine == ENGINE_PATH) {
-    json_number(j, "build", job->tree.seconds);
-  } else {
-    json_number(j, "gl", job->raster.gl_seconds);
-    json_number(j, "table", job->raster.table_seconds);
-    json_number(j, "ibl", job->raster.env_seconds);
-    json_number(j, "upload", t->upload);
-    json_number(j, "compile", t->compile);
-    json_number(j, "shadow", t->shadow);
-    json_number(j, "draw", t->draw);
-    json_number(j, "read", t->read);
-  }
-  json_number(j, "render", job->result.seconds);
-  json_number(j, "write", job->write_seconds);
-  json_close(j, '{');
-}
-
-// What only the path engine has to tell.
-static void json_path(json *j, const render_job *job) {
-  const render_result *r = &job->result;
-  json_number(j, "error", r->error > 0 ? r->error : (double)NAN);
-  json_count(j, "seed", job->settings.seed);
-  json_flag(j, "stopped", r->stopped);
-  json_open(j, "bvh", '{');
-  cmd_tree_json(j, &job->tree);
-  json_close(j, '{');
-}
-
-// The object of --json.  The raster engine has no rays and no samples.
-static void print_json_render(const render_job *job) {
-  const render_result *r = &job->result;
-  bool path = job->engine == ENGINE_PATH;
-  json j = {.out = stdout};
-  json_open(&j, NULL, '{');
-  json_text(&j, "output", job->out.path);
-  json_text(&j, "engine", path ? "path" : "raster");
-  json_seconds(&j, job);
-  json_count(&j, "rays", r->rays);
-  json_count(&j, "samples", r->samples);
-  json_count(&j, "spp", (unsigned long long)r->spp);
-  json_count(&j, "triangles", job->shot.scene.mesh.triangle_count);
-  json_count(&j, "materials", job->shot.scene.material_count);
-  json_count(&j, "width", (unsigned long long)r->color.width);
-  json_count(&j, "height", (unsigned long long)r->color.height);
-  json_number(&j, "peak_bytes", peak_bytes());
-  cmd_json_warnings(&j, &job->shot.remarks);
-  json_count(&j, "non_finite", r->non_finite);
-  json_count(&j, "threads",
-             (unsigned long long)pool_threads(job->shot.threads));
-  if (path)
-    json_path(&j, job);
-  else
-    raster_job_json(&j, &job->raster);
-  json_close(&j, '{');
-  json_end(&j);
-}
-
 // Who walks: path_naive by --integrator naive, with random numbers.
 static void choose_integrator(render_job *j) {
   const option_value *v = j->o->value;
@@ -290,25 +180,33 @@ static void choose_guide(render_job *j) {
   int w = crop ? s->x1 - s->x0 : s->width, h = crop ? s->y1 - s->y0 : s->height;
   if (s->error > 0 || s->deadline > 0) {
     adaptive_settings a = {w, h, s->error, s->spp};
-    j->guide = adaptive_guide(adaptive_new(&a, sh->mem));
+    j->keep.adaptive = adaptive_new(&a, sh->mem);
+    j->guide = adaptive_guide(j->keep.adaptive);
     j->halves = (halves_walk){&j->by, (uint64_t)s->width * (uint64_t)s->height};
     j->twice = halves_integrator(&j->halves);
     s->by = &j->twice;
-  } else if (given(j, OPT_JSON) || !given(j, OPT_QUIET)) {
-    j->guide = doubling_guide(doubling_new(sh->mem, w, h));
+  } else if (cmd_keep_wanted(&j->keep)
+                 ? j->keep.part.films >> PART_MARKS & 1
+                 : given(j, OPT_JSON) || !given(j, OPT_QUIET)) {
+    j->keep.doubling = doubling_new(sh->mem, w, h);
+    j->guide = doubling_guide(j->keep.doubling);
   } else {
     return;
   }
   s->guide = &j->guide;
+  cmd_keep_watch(&j->keep);
 }
 
-// Build the tree and trace paths.
-static void run_path(render_job *j) {
+// Build the tree and trace paths; an exit code.
+static int run_path(render_job *j) {
   shot *s = &j->shot;
   const mesh *m = &s->scene.mesh;
   choose_settings(j);
+  int code = cmd_keep_open(&j->keep, s, &j->settings);
+  if (code != EXIT_DONE) return code;
   bool open = j->settings.spp == SPP_WITHOUT_LIMIT;
-  j->tree.rays = cmd_tree_rays(s->width, s->height, open ? 0 : j->settings.spp);
+  double rays = cmd_tree_rays(s->width, s->height, open ? 0 : j->settings.spp);
+  j->tree.rays = rays / (j->settings.shards > 0 ? j->settings.shards : 1);
   cmd_tree_build(&j->tree, j->o, m, s->mem, s->threads);
   j->world.tracer = j->tree.tracer;
   choose_integrator(j);
@@ -317,6 +215,7 @@ static void run_path(render_job *j) {
   signals_catch_stop();
   render_run(&j->result, &j->world, &s->view, &j->settings, s->mem, s->threads);
   progress_clear(&j->display);
+  return EXIT_DONE;
 }
 
 // Draw.  The frame is the one pass: a first signal lets it end.
@@ -352,8 +251,10 @@ static int check_samples(render_job *j) {
 
 // Everything before the first pixel; an exit code.
 static int prepare(render_job *j) {
-  int code = output_plan(&j->out, j->o, j->shot.mem);
+  int code = cmd_keep_plan(&j->keep, j->o, j->shot.mem);
+  if (code == EXIT_DONE) code = output_plan(&j->out, j->o, j->shot.mem);
   if (code == EXIT_DONE) code = plan_engine(j);
+  if (code == EXIT_DONE) code = cmd_keep_aim(&j->keep, j->out.part);
   if (code != EXIT_DONE) return code;
   signals_catch_snapshot();
   if ((code = shot_read(&j->shot)) != EXIT_DONE) return code;
@@ -373,15 +274,15 @@ static int prepare(render_job *j) {
 static int run_job(render_job *j) {
   int code = prepare(j);
   if (code != EXIT_DONE) return code;
-  if (j->engine == ENGINE_PATH)
-    run_path(j);
-  else if ((code = run_raster(j)) != EXIT_DONE)
-    return code;
-  if ((code = check_samples(j)) != EXIT_DONE) return code;
-  if ((code = write_picture(j)) != EXIT_DONE) return code;
-  if (!given(j, OPT_QUIET)) print_summary(j);
-  if (given(j, OPT_JSON)) print_json_render(j);
-  return j->result.stopped ? EXIT_EARLY : EXIT_DONE;
+  code = j->engine == ENGINE_PATH ? run_path(j) : run_raster(j);
+  if (code == EXIT_DONE) code = cmd_keep_close(&j->keep, &j->result);
+  if (code == EXIT_DONE) code = check_samples(j);
+  if (code == EXIT_DONE) code = write_picture(j);
+  if (code != EXIT_DONE) return code;
+  if (!given(j, OPT_QUIET)) render_job_say(j);
+  if (given(j, OPT_JSON)) render_job_json(j);
+  if (j->result.stopped) return EXIT_EARLY;
+  return j->keep.lost ? EXIT_OUTPUT : EXIT_DONE;
 }
 
 int cmd_render(const options *o) {

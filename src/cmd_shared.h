@@ -10,7 +10,7 @@
 #include "json.h"
 
 #ifndef FACET_VERSION
-// What --version prints.
+// What --version prints, and parts of pictures are marked with.
 #define FACET_VERSION "0.1"
 #endif
 
@@ -22,7 +22,8 @@ enum {
   EXIT_INPUT = 3,      // input missing or malformed
   EXIT_OUTPUT = 4,     // output could not be written
   EXIT_RESOURCES = 5,  // no memory, no OpenGL
-  EXIT_EARLY = 75      // stopped by a signal, the picture so far is written
+  EXIT_EARLY = 75      // stopped by a signal, the picture so far is written or
+                       // can be gone on with
 };
 
 // Print "facet: error: ..." to stderr and return code.
@@ -65,6 +66,7 @@ int cmd_bench_raster(const options *o);
 int cmd_bench_error(const options *o);
 int cmd_ibl(const options *o);
 int cmd_bench_ibl(const options *o);
+int cmd_merge(const options *o);
 int cmd_help(const options *o);
 
 // What `facet help` prints, to out.

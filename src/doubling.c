@@ -5,19 +5,19 @@
 #include "two_means.h"
 
 #include <math.h>
+#include <string.h>
 
 struct doubling {
   film all;
-  vec3 *whole, *half;  // sums of the first 2^k samples, 2^k the last power of
-                       // two that was passed, and of the 2^(k-1) before that
+  doubling_marks marks;
 };
 
 doubling *doubling_new(arena *mem, int width, int height) {
   doubling *d = ARENA_NEW(mem, doubling, 1);
   size_t n = (size_t)width * (size_t)height;
   d->all = film_new(mem, width, height, true);
-  d->whole = ARENA_NEW(mem, vec3, n);
-  d->half = ARENA_NEW(mem, vec3, n);
+  d->marks.whole = ARENA_NEW(mem, vec3, n);
+  d->marks.half = ARENA_NEW(mem, vec3, n);
   return d;
 }
 
@@ -30,8 +30,8 @@ static void doubling_add(void *self, size_t i, uint32_t sample, vec3 color) {
   doubling *d = self;
   uint32_t n = d->all.count[i];
   if (n > 0 && (n & (n - 1)) == 0) {
-    d->half[i] = d->whole[i];
-    d->whole[i] = sum_of(&d->all, i);
+    d->marks.half[i] = d->marks.whole[i];
+    d->marks.whole[i] = sum_of(&d->all, i);
   }
   film_add(&d->all, i, color);
   (void)sample;
@@ -51,8 +51,8 @@ static bool doubling_pixel(const void *self, size_t i, two_means_pixel *out) {
   const doubling *d = self;
   uint32_t n = d->all.count[i], m = power_below(n);
   if (n < 2) return false;
-  vec3 whole = n == m ? sum_of(&d->all, i) : d->whole[i];
-  vec3 half = n == m ? d->whole[i] : d->half[i];
+  vec3 whole = n == m ? sum_of(&d->all, i) : d->marks.whole[i];
+  vec3 half = n == m ? d->marks.whole[i] : d->marks.half[i];
   float w[3] = {whole.x, whole.y, whole.z}, h[3] = {half.x, half.y, half.z};
   vec3 variance = film_variance(&d->all, i);
   out->other[0] = (double)variance.x * n;
@@ -99,4 +99,15 @@ static double doubling_error(void *self) {
 render_guide doubling_guide(doubling *d) {
   return (render_guide){
       .self = d, .add = doubling_add, .error = doubling_error};
+}
+
+doubling_marks doubling_look(const doubling *d) {
+  return d->marks;
+}
+
+void doubling_go_on(doubling *d, const film *all, const doubling_marks *marks) {
+  size_t n = (size_t)all->width * (size_t)all->height;
+  film_copy(&d->all, all);
+  memcpy(d->marks.whole, marks->whole, n * sizeof *marks->whole);
+  memcpy(d->marks.half, marks->half, n * sizeof *marks->half);
 }

@@ -15,4 +15,15 @@ doubling *doubling_new(arena *mem, int width, int height);
 // Watches only.
 render_guide doubling_guide(doubling *d);
 
+// Sums of pixels as doubling looks back at them: of the first 2^k samples, 2^k
+// the last power of two that was passed, and of the 2^(k-1) before.
+typedef struct doubling_marks {
+  vec3 *whole, *half;
+} doubling_marks;
+
+doubling_marks doubling_look(const doubling *d);
+
+// Go on from these and the sums of all samples, which are copied.
+void doubling_go_on(doubling *d, const film *all, const doubling_marks *marks);
+
 #endif

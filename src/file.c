@@ -2,8 +2,11 @@
 
 #include "file.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -70,6 +73,10 @@ static char *follow_links(const char *path, arena *mem) {
   return NULL;
 }
 
+// The name of a temporary file after its dot: the target's, the process, a
+// number.
+#define TEMPORARY "%.200s.%ld-%d.tmp"
+
 // Create a new file beside target under a name that nobody uses; -1 and errno
 // when that cannot be done.
 static int create_beside(file_writer *w, arena *mem) {
@@ -78,8 +85,8 @@ static int create_beside(file_writer *w, arena *mem) {
   const char *base = w->target + folder;
   for (int i = 0; i < 1000; i++) {
     // Long names are cut, so that a name of legal length stays legal.
-    w->temporary = arena_format(mem, "%.*s.%.200s.%ld-%d.tmp", folder,
-                                w->target, base, (long)getpid(), i);
+    w->temporary = arena_format(mem, "%.*s." TEMPORARY, folder, w->target, base,
+                                (long)getpid(), i);
     int fd = open(w->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd >= 0 || errno != EEXIST) return fd;
   }
@@ -136,4 +143,30 @@ void file_discard(file_writer *w) {
   if (w->stream != NULL) fclose(w->stream);
   w->stream = NULL;
   if (w->temporary != NULL) unlink(w->temporary);
+}
+
+// Whether a name is that of a temporary file of base, and of no process that
+// lives.
+static bool is_left_behind(const char *name, const char *base) {
+  char prefix[256], *end;
+  int n = snprintf(prefix, sizeof prefix, ".%.200s.", base);
+  if (strncmp(name, prefix, (size_t)n) != 0) return false;
+  long process = strtol(name + n, &end, 10);
+  if (process <= 0 || *end != '-' || end[1] < '0' || end[1] > '9') return false;
+  strtol(end + 1, &end, 10);
+  return strcmp(end, ".tmp") == 0 && kill((pid_t)process, 0) != 0 &&
+         errno == ESRCH;
+}
+
+void file_sweep(const char *path, arena *mem) {
+  char *target = follow_links(path, mem);
+  if (target == NULL) return;
+  char *slash = strrchr(target, '/');
+  const char *base = slash == NULL ? target : slash + 1;
+  size_t n = (size_t)(base - target);
+  DIR *folder = opendir(n == 0 ? "." : arena_text(mem, target, n));
+  if (folder == NULL) return;
+  for (struct dirent *d; (d = readdir(folder)) != NULL;)
+    if (is_left_behind(d->d_name, base)) unlinkat(dirfd(folder), d->d_name, 0);
+  closedir(folder);
 }

@@ -41,4 +41,7 @@ bool file_commit(file_writer *w, error *err);
 // Give up: close, and remove the temporary file.
 void file_discard(file_writer *w);
 
+// Remove temporary files of path that a killed process has left behind.
+void file_sweep(const char *path, arena *mem);
+
 #endif

@@ -2,6 +2,8 @@
 
 #include "film.h"
 
+#include <string.h>
+
 film film_new(arena *mem, int width, int height, bool with_variance) {
   size_t n = (size_t)width * (size_t)height;
   film f = {.width = width, .height = height};
@@ -9,6 +11,14 @@ film film_new(arena *mem, int width, int height, bool with_variance) {
   f.count = ARENA_NEW(mem, uint32_t, n);
   if (with_variance) f.square = arena_alloc(mem, n, sizeof *f.square);
   return f;
+}
+
+void film_copy(film *to, const film *from) {
+  size_t n = (size_t)from->width * (size_t)from->height;
+  memcpy(to->sum, from->sum, n * sizeof *to->sum);
+  memcpy(to->count, from->count, n * sizeof *to->count);
+  if (to->square != NULL)
+    memcpy(to->square, from->square, n * sizeof *to->square);
 }
 
 void film_add(film *f, size_t i, vec3 sample) {

@@ -21,6 +21,7 @@ static int run_command(const options *o) {
   case CMD_BENCH_ERROR: return cmd_bench_error(o);
   case CMD_IBL: return cmd_ibl(o);
   case CMD_BENCH_IBL: return cmd_bench_ibl(o);
+  case CMD_MERGE: return cmd_merge(o);
   default: return cmd_help(o);
   }
 }

@@ -17,7 +17,26 @@ const command command_table[] = {
      "The output is written beside its target and renamed: a failed run "
      "leaves an old picture as it was.  The first SIGINT or SIGTERM finishes "
      "the pass, writes the picture so far and exits with 75; the second ends "
-     "the program at once.  SIGUSR1 writes the picture so far and goes on."},
+     "the program at once.  SIGUSR1 writes the picture so far and goes on.\n"
+     "With --checkpoint the path engine saves all sums now and then; the first "
+     "signal saves them instead of a picture, and exits with 75.  The same "
+     "command with --resume goes on from there, whatever has ended the run, "
+     "and "
+     "the picture is the one that it would have been, byte for byte.  A "
+     "checkpoint of another scene, of other settings or of another version is "
+     "refused with status 3.  --spp, --time and --error may be others: --spp "
+     "is "
+     "the total.\n"
+     "With --shard I/N a run renders every N-th tile of 16x16 pixels of the "
+     "path engine's picture and writes a .part; facet merge makes the picture "
+     "of all N, the same one again.  Checkpoints and parts are files of one "
+     "kind: a part can be gone on with, too."},
+    {"merge", CMD_MERGE, "PART...", 1, 1000000, "make a picture of its parts",
+     "The parts are what facet render --shard I/N has written, or -o FILE.part "
+     "without it.  The picture and its AOVs equal those of a single run byte "
+     "for byte.  Exit status 1, and nothing is written, when parts are of "
+     "different pictures, not finished, missing or there twice: they are "
+     "listed.  3 when one cannot be read or is damaged."},
     {"view", CMD_VIEW, "SCENE", 1, 1, "fly through a scene",
      "SCENE is as for render.  The mouse turns; w and s or the arrows up and "
      "down fly forward and back, a and d or left and right sideways, q and z "
@@ -96,15 +115,17 @@ const command command_table[] = {
 
 const option option_table[OPTION_COUNT] = {
     [OPT_OUTPUT] =
-        {"output", 'o', SHOWS | CMD_IBL, OPTION_TEXT, "FILE",
+        {"output", 'o', SHOWS | CMD_IBL | CMD_MERGE, OPTION_TEXT, "FILE",
          .help =
-             "the picture to write, by suffix .png, .pfm or .hdr; - is "
+             "the picture to write, by suffix .png, .pfm, .hdr or .part; - is "
              "standard output and needs --format "
-             "(default: SCENE.png in the current folder).  Of ibl: a folder, "
+             "(default: SCENE.png in the current folder, of a shard "
+             "SCENE.I-of-N.part).  Of ibl: a folder, "
              "made when it is not there.  Of bench error: the plot"},
-    [OPT_FORMAT] = {"format", 0, CMD_RENDER, OPTION_WORD, "png|pfm|hdr",
+    [OPT_FORMAT] = {"format", 0, CMD_RENDER | CMD_MERGE, OPTION_WORD,
+                    "png|pfm|hdr|part",
                     .help = "file format, whatever the suffix"},
-    [OPT_DEPTH] = {"depth", 0, CMD_RENDER, OPTION_WORD, "8|16", "8",
+    [OPT_DEPTH] = {"depth", 0, CMD_RENDER | CMD_MERGE, OPTION_WORD, "8|16", "8",
                    .help = "bits a channel of a PNG"},
     [OPT_RESOLUTION] =
         {"resolution", 'r', SHOWS | CMD_VIEW, OPTION_SIZE, "WxH", "1280x720", 1,
@@ -206,6 +227,19 @@ const option option_table[OPTION_COUNT] = {
                    "stop when the estimated relative error of the "
                    "picture is below this; samples go where they help, and "
                    "the estimate is within 10 % of the error"},
+    [OPT_SHARD] = {"shard", 0, CMD_RENDER, OPTION_TEXT, "I/N",
+                   .help = "render the tiles of hand I of N, into a .part; I "
+                           "from 1, or from 0, where 0 is N"},
+    [OPT_CHECKPOINT] = {"checkpoint", 0, CMD_RENDER, OPTION_TEXT, "FILE",
+                        .help =
+                            "save what there is of the picture, at the end, "
+                            "at a signal and from time to time"},
+    [OPT_EVERY] = {"every", 0, CMD_RENDER, OPTION_NUMBER, "SECONDS", "60", 0,
+                   1e9,
+                   .help = "how often, as soon as a pass ends, about twice a "
+                           "second"},
+    [OPT_RESUME] = {"resume", 0, CMD_RENDER, OPTION_SWITCH,
+                    .help = "go on from the checkpoint, if it is there"},
     [OPT_MAX_DEPTH] = {"max-depth", 0, SHOWS | CMD_VIEW, OPTION_WHOLE, "N", "0",
                        0, 1000000,
                        .help =
@@ -222,16 +256,16 @@ const option option_table[OPTION_COUNT] = {
                  "auto|binary|wide|brute|fast|high", "auto",
                  .help = "how triangles are found; brute tests every one, high "
                          "cuts large ones, auto when it pays"},
-    [OPT_EXPOSURE] = {"exposure", 0, CMD_RENDER | CMD_VIEW, OPTION_NUMBER,
-                      "STOPS", NULL, -64, 64,
+    [OPT_EXPOSURE] = {"exposure", 0, CMD_RENDER | CMD_VIEW | CMD_MERGE,
+                      OPTION_NUMBER, "STOPS", NULL, -64, 64,
                       .help =
                           "brightness of a PNG, one stop doubles (default: the "
                           "scene file's, else 0)"},
-    [OPT_TONEMAP] = {"tonemap", 0, CMD_RENDER | CMD_VIEW, OPTION_WORD,
-                     "none|reinhard|aces", "none",
+    [OPT_TONEMAP] = {"tonemap", 0, CMD_RENDER | CMD_VIEW | CMD_MERGE,
+                     OPTION_WORD, "none|reinhard|aces", "none",
                      .help =
                          "curve that brings a PNG's highlights below white"},
-    [OPT_POST] = {"post", 0, CMD_RENDER | CMD_VIEW, OPTION_TEXT,
+    [OPT_POST] = {"post", 0, CMD_RENDER | CMD_VIEW | CMD_MERGE, OPTION_TEXT,
                   "frosted[=RADIUS]",
                   .help = "the picture behind a pane of frosted glass, whose "
                           "grains look up to RADIUS pixels away; frosted "
@@ -288,8 +322,8 @@ const option option_table[OPTION_COUNT] = {
                         .help = "print what lets this shell complete the "
                                 "command line"},
     [OPT_THREADS] =
-        {"threads", 'j', CMD_ALL & ~(CMD_COMPARE | CMD_HELP), OPTION_WHOLE, "N",
-         NULL, 1, 1024,
+        {"threads", 'j', CMD_ALL & ~(CMD_COMPARE | CMD_HELP | CMD_MERGE),
+         OPTION_WHOLE, "N", NULL, 1, 1024,
          .help = "worker threads (default: what CPU affinity, the cgroup's "
                  "quota and SLURM_CPUS_PER_TASK allow)"},
     [OPT_STRICT] =
@@ -298,8 +332,8 @@ const option option_table[OPTION_COUNT] = {
     [OPT_JSON] = {"json", 0, CMD_ALL & ~(CMD_HELP | CMD_VIEW | CMD_IBL),
                   OPTION_SWITCH,
                   .help = "print one JSON object on standard output"},
-    [OPT_QUIET] = {"quiet", 'q', CMD_IBL | DRAWS | CMD_COMPARE, OPTION_SWITCH,
-                   .help = "print errors only"},
+    [OPT_QUIET] = {"quiet", 'q', CMD_IBL | DRAWS | CMD_COMPARE | CMD_MERGE,
+                   OPTION_SWITCH, .help = "print errors only"},
     [OPT_VERBOSE] = {"verbose", 'v', DRAWS | CMD_INFO, OPTION_SWITCH,
                      .help = "print notes, too"},
     [OPT_NO_COLOR] = {"no-color", 0, CMD_ALL, OPTION_SWITCH,
@@ -309,6 +343,5 @@ const option option_table[OPTION_COUNT] = {
 };
 
 const char *const later_words[] = {
-    "merge",   "wide", "checkpoint", "every", "resume", "shard",
-    "explain", ".exr", ".part",      "exr",   "part",   NULL,
+    "wide", "explain", ".exr", "exr", NULL,
 };

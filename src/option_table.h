@@ -20,7 +20,8 @@ enum {
   CMD_IBL = 256,
   CMD_BENCH_IBL = 512,
   CMD_BENCH_ERROR = 1024,
-  CMD_ALL = 2047
+  CMD_MERGE = 2048,
+  CMD_ALL = 4095
 };
 
 // A command: its one or two words, and what it wants after the options.
