@@ -251,7 +251,8 @@ const option option_table[OPTION_COUNT] = {
     [OPT_INTEGRATOR] = {"integrator", 0, SHOWS, OPTION_WORD, "auto|naive|mis",
                         "auto", .help = "how paths look for light"},
     [OPT_SAMPLER] = {"sampler", 0, SHOWS, OPTION_WORD, "sobol|random", "sobol",
-                     .help = "where random numbers come from; naive has its own"},
+                     .help =
+                         "where random numbers come from; naive has its own"},
     [OPT_BVH] = {"bvh", 0, SHOWS | CMD_BENCH_RAYS, OPTION_WORD,
                  "auto|binary|wide|brute|fast|high", "auto",
                  .help = "how triangles are found; brute tests every one, high "

@@ -25,11 +25,12 @@ ok "of numbers" sh -c 'tr -s " \n" " " <out | grep -q "without it (default: 64)"
 
 # Every option of every command, with every word that it offers.  The file is
 # not there, so exit 3 says that the command line itself was fine.
-for command in render view info compare ibl "bench load" "bench rays" "bench raster" "bench ibl" "bench error"; do
+for command in render merge view info compare ibl "bench load" "bench rays" "bench raster" "bench ibl" "bench error"; do
   # shellcheck disable=SC2086
   "$facet" help $command >"$T/help" || fail "help $command"
   wrong= count=0 operands=missing.obj
   [ "$command" = compare ] && operands="missing.png missing.png"
+  [ "$command" = merge ] && operands="missing.part -o x.png"
   [ "$command" = ibl ] && operands="missing.hdr -o ibl"
   [ "$command" = "bench ibl" ] && operands=missing.hdr
   sed -n 's/^  \(-., \)\?--\([a-z-]*\) \?\([^ ]*\).*/\2 \3/p' "$T/help" >"$T/flags"
@@ -38,6 +39,7 @@ for command in render view info compare ibl "bench load" "bench rays" "bench ras
     case $argument in
     N|K|SECONDS|REL|S|STOPS|T|DEG) values=1 ;;
     X,Y,Z) values=1,-2,.5e1 ;;
+    I/N) values="1/1 0/3 3/3 2/1000000" ;;
     WxH) values=8x4 ;;
     "frosted[=RADIUS]") values="frosted frosted=3" ;;
     N,...) values="1 4,16" ;;
@@ -51,7 +53,12 @@ for command in render view info compare ibl "bench load" "bench rays" "bench ras
     for value in $values; do
       for form in "--$flag $value" "--$flag=$value"; do
         [ "$value" = - ] && form="--$flag"
-        [ "$flag" = aov ] && form="$form --engine path"
+        case $flag in
+        aov|checkpoint) form="$form --engine path" ;;
+        every|resume) form="$form --engine path --checkpoint c.part" ;;
+        shard) form="$form --engine path -o x.part" ;;
+        format) [ "$command $value" = "render part" ] && form="$form --engine path" ;;
+        esac
         # shellcheck disable=SC2086
         "$facet" $command $form $operands >"$T/out" 2>"$T/err"
         [ $? = 3 ] || wrong="$wrong $form"
@@ -79,6 +86,8 @@ for words in "--spp 3x" "--spp 0" "--spp -1" "--spp 1e3" "--spp 1.5" "--spp=" \
   "--crop -1,0,4,4" "--msaa 0" "--gl opengl" "--pbr-model phong" "--aov normal,,depth" "--aov normal," "--aov norm" \
   "--time 0" "--time -1" "--error 0" "--seed -1" "-j 0" "-j 1.5" "-j" \
   "--threads=x" "--depth 12" "--tonemap filmic" "--up-axis X" "--strict=1" \
+  "--shard 3" "--shard 3/2" "--shard -1/2" "--shard 1/0" "--shard 1/2/3" \
+  "--shard 1/2x" "--shard /" "--every -1" "--resume=1" "--checkpoint" \
   "--lights maybe" "--exposure bright" "--crease 181" "--nonsense" "-Z" "-qZ" \
   "--output --json" "--spp"; do
   # shellcheck disable=SC2086
@@ -101,9 +110,7 @@ nearest "render a.obj --shading albdo" "albedo"
 nearest "compare --metrics mae a b" "--metric"
 nearest "bench lod a.obj" "bench load"
 nearest "a.obj" "facet render a.obj"
-for later in merge "render a.obj --resume" \
-  "render a.obj --checkpoint x" "render a.obj --every 3" "render a.obj --shard 0/2" \
-  "render a.obj --explain"; do
+for later in "render a.obj --explain"; do
   # shellcheck disable=SC2086
   "$facet" $later >"$T/out" 2>"$T/err"
   [ $? = 2 ] && grep -q "not in this version" "$T/err" || { fail "$later"; continue; }
@@ -114,6 +121,13 @@ pass "what is to come is refused as such, and not in help"
 
 exits 2 "no operand" "$facet" render
 exits 2 "too many operands" "$facet" render a.obj b.obj
+exits 2 "merge without a target" "$facet" merge a.part
+exits 2 "a shard of the raster engine" "$facet" render a.obj --shard 1/2
+says "--shard needs --engine path" "which has no samples to deal out"
+exits 2 "a shard as a picture" "$facet" render a.obj --engine path --shard 1/2 -o x.png
+exits 2 "a shard that goes where samples help" "$facet" render a.obj --engine path --shard 1/2 --error 0.1
+exits 2 "--resume from nothing" "$facet" render a.obj --engine path --resume
+exits 2 "--every without a checkpoint" "$facet" render a.obj --engine path --every 3
 exits 2 "an unknown suffix" "$facet" render a.obj -o x.xyz
 exits 2 "-o - without --format" "$facet" render a.obj -o -
 exits 2 "-o - with --json" "$facet" render a.obj -o - --format png --json
