@@ -246,8 +246,11 @@ static void print_material(const material *m, size_t triangles, arena *mem) {
 
 // Where each mtllib line led.
 static void print_libraries(const scene_facts *f) {
-  path_search where = {
-      .folder = path_folder(f->mem, f->path), .place = f->path, .mem = f->mem};
+  int misses = 0;
+  path_search where = {.folder = path_folder(f->mem, f->path),
+                       .place = f->path,
+                       .mem = f->mem,
+                       .misses = &misses};
   if (!f->o->value[OPT_ALLOW_OUTSIDE].given)
     where.root = path_root(f->mem, f->path);
   for (size_t i = 0; i < f->m.library_count; i++) {

@@ -248,7 +248,9 @@ static image hdr_upright(const hdr_header *h, const uint8_t *rows, arena *mem) {
 // for what the file has shown.  NULL, or what is wrong.
 static const char *hdr_read_rows(const hdr_header *h, FILE *f, uint8_t **rows) {
   uint64_t least = h->length > 1 ? 8 : 4;  // bytes of a scanline
-  if (least * (uint64_t)h->count > file_left(f))
+  uint64_t left = file_left(f);
+  if (least * (uint64_t)h->count > left ||
+      !image_fits(h->length, h->count, left))
     return "the file is too short for its width and height";
   size_t room = 0, row = 4 * (size_t)h->length;
   for (size_t i = 0; i < (size_t)h->count; i++) {

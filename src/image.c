@@ -2,6 +2,12 @@
 
 #include "image.h"
 
+bool image_fits(int width, int height, uint64_t file_bytes) {
+  uint64_t pixels = (uint64_t)width * (uint64_t)height;
+  return pixels <= IMAGE_FREE_PIXELS ||
+         pixels / IMAGE_BYTE_PIXELS <= file_bytes;
+}
+
 image image_new(arena *a, int width, int height) {
   size_t n = (size_t)width * (size_t)height;
   return (image){width, height, ARENA_NEW(a, vec3, n)};

@@ -18,6 +18,14 @@ typedef struct image {
 // Sides are limited to this, so that a count of pixels fits 32 bits.
 enum { IMAGE_MAX_SIDE = 65535 };
 
+// Whether a file of so many bytes may hold a picture of that size, 0 <= width,
+// height <= IMAGE_MAX_SIDE: at most IMAGE_BYTE_PIXELS for each byte, as deflate
+// gives of bytes, or IMAGE_FREE_PIXELS in all.  More is no picture but an
+// attempt at our memory.
+bool image_fits(int width, int height, uint64_t file_bytes);
+
+enum { IMAGE_BYTE_PIXELS = 1032, IMAGE_FREE_PIXELS = 1 << 24 };
+
 // A black image that lives as long as a.  Needs 0 < width, height <=
 // IMAGE_MAX_SIDE.
 image image_new(arena *a, int width, int height);

@@ -14,8 +14,8 @@
 enum { HUFFMAN_MAX_PIXELS = 8 * 64 };
 
 // A progressive file may repaint all of the picture with every few bytes.  Real
-// ones do so about ten times.
-enum { MAX_SCANS = 200 };
+// ones do so about ten times, and have some bits for each block.
+enum { MAX_SCANS = 200, MAX_BYTE_WORK = 4096, FREE_WORK = 1 << 28 };
 
 // One file in work.  manager comes first: libjpeg hands its address back.
 typedef struct jpeg_job {
@@ -58,6 +58,10 @@ static void jpeg_watch(j_common_ptr jpeg) {
   jpeg_job *job = (jpeg_job *)jpeg->err;
   if (job->jpeg.input_scan_number > MAX_SCANS)
     jpeg_refuse(job, "it has more than 200 scans");
+  uint64_t work = (uint64_t)job->jpeg.input_scan_number *
+                  job->jpeg.image_width * job->jpeg.image_height;
+  if (work > FREE_WORK && work / MAX_BYTE_WORK > job->file_bytes)
+    jpeg_refuse(job, "it repaints the picture too often for its length");
 }
 
 // Refuse what would cost more memory than its bytes can be worth.

@@ -167,7 +167,7 @@ static void load_map(texture_map *map, const mtl_material *w, mtl_key key,
   if (map->options.path == NULL || w == NULL) return;
   arena *mem = store->mem;
   const char *place = arena_format(mem, "%s:%u", w->file, w->line[key]);
-  path_search where = {store->root, w->folder, place, mem, r};
+  path_search where = {store->root, w->folder, place, mem, r, &store->misses};
   path_found found = path_find(&where, map->options.path);
   if (found.path != NULL && skip) return;
   if (found.outside) {

@@ -108,10 +108,12 @@ bool mtl_read(mtl_library *lib, const char *path, arena *mem, report *r,
   return ok;
 }
 
-// The libraries that have been read, by path; and what finding needs.
+// What has been looked for: mtllib lines, and libraries by path; and what
+// finding needs.
 typedef struct library_search {
-  name_table done;
+  name_table asked, done;
   path_search where;
+  int misses;
   arena *mem;
   report *r;
 } library_search;
@@ -152,6 +154,9 @@ static bool read_words(library_search *s, mtl_library *lib, const char *name,
 // One mtllib line: the file of that name, or else the files of its words.
 static bool read_line_libraries(library_search *s, mtl_library *lib,
                                 const char *name, error *err) {
+  size_t before = s->asked.count;
+  name_table_add(&s->asked, (span){name, strlen(name)}, s->mem);
+  if (s->asked.count == before) return true;
   s->where.r = s->r;
   path_found f = path_find(&s->where, name);
   if (f.path != NULL) return read_once(s, lib, f.path, err);
@@ -168,6 +173,7 @@ bool mtl_read_all(mtl_library *lib, const mesh *m, const char *obj_path,
       .where = {.root = root, .folder = path_folder(mem, obj_path), .mem = mem},
       .mem = mem,
       .r = r};
+  s.where.misses = &s.misses;
   for (size_t i = 0; i < m->library_count; i++) {
     s.where.place =
         arena_format(mem, "%s:%" PRIu64, obj_path, m->library_lines[i]);

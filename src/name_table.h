@@ -11,6 +11,7 @@ typedef struct name_table {
   size_t count;
   uint32_t *slots;    // name number + 1 by hash, 0 where free
   size_t slot_count;  // a power of two
+  uint64_t key;       // of the hash
 } name_table;
 
 // The number of name, which is copied to mem when it is new.

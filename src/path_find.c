@@ -77,51 +77,60 @@ static char *entry_any_case(arena *mem, const char *folder, const char *name) {
   return arena_format(mem, "%s%s%s", folder, slash, best);
 }
 
-// The file of that name without regard to case, folder by folder; NULL when
-// there is none.  No folder outside of the root is looked into.
-static char *path_any_case(const path_search *s, const char *name) {
-  char *rest = arena_text(s->mem, name, strlen(name));
+// The file of that name without regard to case, folder by folder, in scratch;
+// NULL when there is none.  No folder outside of the root is looked into.
+static char *path_any_case(const path_search *s, const char *name,
+                           arena *scratch) {
+  char *rest = arena_text(scratch, name, strlen(name));
   bool here = strcmp(s->folder, ".") == 0;
   const char *from = *rest == '/' ? "/" : here ? "" : s->folder;
-  char *found = arena_text(s->mem, from, strlen(from));
+  char *found = arena_text(scratch, from, strlen(from));
   while (*rest != '\0') {
     char *part = rest;
     size_t n = strcspn(part, "/");
     rest += n;
     if (*rest == '/') *rest++ = '\0';
-    if (*part == '\0') continue;
+    if (*part == '\0' || strcmp(part, ".") == 0) continue;
     if (!path_is_inside(s->root, *found != '\0' ? found : ".")) return NULL;
-    found = entry_any_case(s->mem, found, part);
+    found = entry_any_case(scratch, found, part);
     if (found == NULL) return NULL;
   }
   return is_there(found) ? found : NULL;
 }
 
 // Whether f ends with this candidate; one outside is remembered.
-static bool settle(path_found *f, const path_search *s, char *path) {
+static bool settle(path_found *f, const path_search *s, const char *path) {
   if (path == NULL || !is_there(path)) return false;
   bool inside = path_is_inside(s->root, path);
-  if (inside) f->path = path;
+  if (inside) f->path = arena_text(s->mem, path, strlen(path));
   if (!inside) f->outside = true;
   return inside;
+}
+
+// The ways to find what is not where its name says.
+static bool guess(path_found *f, const path_search *s, const char *name) {
+  if (s->misses != NULL && *s->misses >= PATH_MAX_GUESSES) return false;
+  arena scratch = {0};
+  const char *slash = strrchr(name, '/');
+  const char *last = slash != NULL ? slash + 1 : name;
+  bool found = settle(f, s, path_join(&scratch, s->folder, last)) ||
+               settle(f, s, path_any_case(s, name, &scratch)) ||
+               settle(f, s, path_any_case(s, last, &scratch));
+  if (!found && s->misses != NULL) ++*s->misses;
+  arena_free(&scratch);
+  return found;
 }
 
 path_found path_find(const path_search *s, const char *name) {
   char *clean = arena_text(s->mem, name, strlen(name));
   for (char *p = clean; *p != '\0'; p++)
     if (*p == '\\') *p = '/';
-  const char *slash = strrchr(clean, '/');
-  const char *last = slash != NULL ? slash + 1 : clean;
-  char *wanted = path_join(s->mem, s->folder, clean);
-  path_found f = {.tried = wanted};
-  if (*last == '\0') return f;
-  if (!settle(&f, s, wanted) &&
-      !settle(&f, s, path_join(s->mem, s->folder, last)) &&
-      !settle(&f, s, path_any_case(s, clean)) &&
-      !settle(&f, s, path_any_case(s, last)))
-    return f;
+  size_t n = strlen(clean);
+  path_found f = {.tried = path_join(s->mem, s->folder, clean)};
+  if (n == 0 || n >= PATH_MAX || clean[n - 1] == '/') return f;
+  if (!settle(&f, s, f.tried) && !guess(&f, s, clean)) return f;
   f.outside = false;
-  if (f.path != wanted || strcmp(clean, name) != 0)
+  if (strcmp(f.path, f.tried) != 0 || strcmp(clean, name) != 0)
     report_note(s->r, "%s: \"%s\" found as \"%s\"", s->place, name, f.path);
   return f;
 }

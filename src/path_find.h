@@ -9,6 +9,10 @@
 
 #include <stdbool.h>
 
+// So many names without a file are looked for in all ways, the rest only as
+// they stand: each guess reads a folder.
+enum { PATH_MAX_GUESSES = 1000 };
+
 // Where names are looked for, and who hears about it.
 typedef struct path_search {
   const char *root;    // of path_root; NULL: names may lead anywhere
@@ -16,6 +20,7 @@ typedef struct path_search {
   const char *place;   // "file:line"
   arena *mem;
   report *r;
+  int *misses;  // counts names without a file, or NULL
 } path_search;
 
 // What a name led to.
@@ -42,6 +47,7 @@ bool path_is_inside(const char *root, const char *path);
 // Find the file that `name` means: as it stands (back-slashes become slashes),
 // relative to the folder or absolute; then its last component in the folder;
 // then the same without regard to case.  Anything but the first way is noted.
+// A name as long as PATH_MAX is no file's.
 path_found path_find(const path_search *s, const char *name);
 
 // Why there is no path, for a message: "WHAT not found, tried PATH", or that

@@ -14,9 +14,6 @@
 // Source: RFC 1951, section 3.2.5 (length code 285, one bit; distance, one).
 enum { DEFLATE_MAX_RATIO = 1032 };
 
-// What libpng may allocate for one text or colour profile.
-enum { CHUNK_MAX_BYTES = 8 << 20 };
-
 // One file in work, so that nothing that matters is a local variable of the
 // function that longjmp returns to.
 typedef struct png_job {
@@ -54,14 +51,17 @@ static void png_widen(png_job *job) {
 static void png_decode(png_job *job, FILE *f) {
   png_init_io(job->png, f);
   png_set_user_limits(job->png, IMAGE_MAX_SIDE, IMAGE_MAX_SIDE);
-  png_set_chunk_malloc_max(job->png, CHUNK_MAX_BYTES);
+  // Texts and profiles are not used; libpng would clear a buffer of the length
+  // that a chunk claims before it looks whether the file has so much.
+  png_set_keep_unknown_chunks(job->png, PNG_HANDLE_CHUNK_NEVER, NULL, -1);
   png_read_info(job->png, job->info);
   pixmap *map = &job->map;
   map->width = (int)png_get_image_width(job->png, job->info);
   map->height = (int)png_get_image_height(job->png, job->info);
   uint64_t packed =
       png_get_rowbytes(job->png, job->info) * (uint64_t)map->height;
-  if (packed / DEFLATE_MAX_RATIO > job->file_bytes)
+  if (packed / DEFLATE_MAX_RATIO > job->file_bytes ||
+      !image_fits(map->width, map->height, job->file_bytes))
     png_error(job->png, "the file is too short for its width and height");
   png_widen(job);
   int passes = png_set_interlace_handling(job->png);

@@ -6,9 +6,10 @@
 #include <stdbool.h>
 #include <string.h>
 
-// Point-in-triangle tests that a polygon may cost per corner; what is left
-// then is cut anyhow.  Ordinary outlines need a few dozen at any size.
-enum { CLIP_BUDGET = 2000 };
+// Point-in-triangle tests that a polygon may cost per corner, above what any
+// small one may; what is left then is cut anyhow.  Ordinary outlines need a few
+// dozen at any size.
+enum { CLIP_BUDGET = 1000, CLIP_BUDGET_LEAST = 1 << 20 };
 
 // No corner.
 #define NO_CORNER UINT32_MAX
@@ -294,7 +295,7 @@ static void clip_ears(const flat *p, size_t n, uint32_t *out, arena *scratch) {
   c.queued = ARENA_NEW(scratch, bool, n);
   c.gone = ARENA_NEW(scratch, bool, n);
   c.listed = ARENA_NEW(scratch, bool, n);
-  c.budget = (uint64_t)n * CLIP_BUDGET;
+  c.budget = (uint64_t)n * CLIP_BUDGET + CLIP_BUDGET_LEAST;
   grid_fit(&c, scratch);
   for (uint32_t i = 0; i < c.n; i++) {
     c.next[i] = i + 1 < c.n ? i + 1 : 0;

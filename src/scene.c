@@ -88,7 +88,8 @@ static bool load_file(scene_loader *l, const char *path) {
 static bool load_part(scene_loader *l, size_t i) {
   scene_source *m = &l->out->file.meshes[i];
   if (m->place != NULL && strcmp(m->path, "-") != 0) {
-    path_search where = {l->root, l->out->file.folder, m->place, l->mem, l->r};
+    path_search where = {l->root, l->out->file.folder, m->place, l->mem, l->r,
+                         NULL};
     path_found found = path_find(&where, m->path);
     if (found.path == NULL)
       return fail(l->err, "%s: %s", m->place,
@@ -146,7 +147,7 @@ static bool load_meshes(scene_loader *l) {
 static bool load_env(scene_loader *l) {
   scene_env *e = &l->out->file.env;
   const scene_options *o = l->options;
-  path_search where = {l->root, l->out->file.folder, NULL, l->mem, l->r};
+  path_search where = {l->root, l->out->file.folder, NULL, l->mem, l->r, NULL};
   if (o->env != NULL) {
     scene_env given = scene_env_of_text(o->env, l->mem);
     given.rotate_deg = e->rotate_deg;

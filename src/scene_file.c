@@ -33,6 +33,12 @@ static void *one_more(arena *mem, void *old, size_t count, size_t size) {
   return array;
 }
 
+// Whether there may be one more.
+static bool has_room(statement *st, size_t count, size_t most) {
+  return count < most || fail(st->err, "%s: more than %zu %s statements",
+                              st->place, most, st->key);
+}
+
 // A name that is all that is left of a line.
 static bool last_name(statement *st, const char **out) {
   static const char *const no_stops[] = {NULL};
@@ -57,6 +63,7 @@ static bool state_mesh(scene_reader *s, statement *st) {
     }
   }
   scene_file *f = s->out;
+  if (!has_room(st, f->mesh_count, SCENE_MAX_MESHES)) return false;
   f->meshes = one_more(st->mem, f->meshes, f->mesh_count, sizeof m);
   f->meshes[f->mesh_count++] = m;
   return statement_done(st, "scale S or up Y|Z");
@@ -70,6 +77,7 @@ static bool state_camera(scene_reader *s, statement *st) {
               .fov_deg = 40};
   if (!last_name(st, &c.name)) return false;
   scene_file *f = s->out;
+  if (!has_room(st, f->camera_count, SCENE_MAX_CAMERAS)) return false;
   for (size_t i = 0; i < f->camera_count; i++)
     if (strcmp(f->cameras[i].name, c.name) == 0)
       return fail(st->err, "%s: a second camera \"%s\"", st->place, c.name);
@@ -143,6 +151,7 @@ static bool state_light(scene_reader *s, statement *st) {
     l.at = vec3_unit(l.at);
   }
   scene_file *f = s->out;
+  if (!has_room(st, f->light_count, SCENE_MAX_LIGHTS)) return false;
   f->lights = one_more(st->mem, f->lights, f->light_count, sizeof l);
   f->lights[f->light_count++] = l;
   return statement_done(st, "nothing after the three numbers");
@@ -153,6 +162,7 @@ static bool state_newmtl(scene_reader *s, statement *st) {
   const char *name;
   if (!last_name(st, &name)) return false;
   scene_file *f = s->out;
+  if (!has_room(st, f->material_count, SCENE_MAX_MATERIALS)) return false;
   for (size_t i = 0; i < f->material_count; i++)
     if (strcmp(f->materials[i].name, name) == 0)
       return fail(st->err, "%s: a second newmtl \"%s\"", st->place, name);
@@ -176,6 +186,7 @@ static bool state_assign(scene_reader *s, statement *st) {
     return statement_refuse(st, "object or material after the name");
   if (!last_name(st, &a.pattern)) return false;
   scene_file *f = s->out;
+  if (!has_room(st, f->assign_count, SCENE_MAX_ASSIGNS)) return false;
   f->assigns = one_more(st->mem, f->assigns, f->assign_count, sizeof a);
   f->assigns[f->assign_count++] = a;
   return true;
@@ -183,9 +194,18 @@ static bool state_assign(scene_reader *s, statement *st) {
 
 // film W H
 static bool state_film(scene_reader *s, statement *st) {
-  return statement_int(st, 1, IMAGE_MAX_SIDE, &s->out->film_width) &&
-         statement_int(st, 1, IMAGE_MAX_SIDE, &s->out->film_height) &&
-         statement_done(st, "two numbers");
+  int w, h;
+  if (!statement_int(st, 1, IMAGE_MAX_SIDE, &w) ||
+      !statement_int(st, 1, IMAGE_MAX_SIDE, &h))
+    return false;
+  if ((int64_t)w * h > SCENE_MAX_FILM)
+    return fail(st->err,
+                "%s: film: %d x %d has more than %d pixels, which only "
+                "--resolution may ask for",
+                st->place, w, h, SCENE_MAX_FILM);
+  s->out->film_width = w;
+  s->out->film_height = h;
+  return statement_done(st, "two numbers");
 }
 
 // exposure STOPS

@@ -17,6 +17,18 @@
 #include "env.h"
 #include "mtl.h"
 
+// What one scene file may hold: far more than people write, few enough that
+// nobody waits for what a machine wrote.  A larger film is for the command line
+// to ask for.
+enum {
+  SCENE_MAX_MESHES = 4096,
+  SCENE_MAX_CAMERAS = 4096,
+  SCENE_MAX_MATERIALS = 4096,
+  SCENE_MAX_ASSIGNS = 512,
+  SCENE_MAX_LIGHTS = 65536,
+  SCENE_MAX_FILM = 1 << 26  // pixels
+};
+
 typedef enum light_kind { LIGHT_POINT, LIGHT_DIR } light_kind;
 
 // A point light: position, intensity in W/sr.  A directional light: unit

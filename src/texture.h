@@ -26,6 +26,7 @@ typedef struct texture_store {
   size_t count, room;
   name_table names;  // name number = texture number
   const char *root;  // of path_root, for who looks for files; may be NULL
+  int misses;        // of a path_search
   arena *mem;
   float *decode;
 } texture_store;

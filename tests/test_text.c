@@ -174,7 +174,7 @@ static void files_are_found_as_they_are_meant(void **state) {
   for (size_t i = 0; i < sizeof SEARCHES / sizeof SEARCHES[0]; i++) {
     const search *s = &SEARCHES[i];
     report r = {.mem = &mem};
-    path_search where = {NULL, folder, "x.obj:1", &mem, &r};
+    path_search where = {NULL, folder, "x.obj:1", &mem, &r, NULL};
     path_found found = path_find(&where, s->name);
     char *wanted = arena_format(&mem, "%s/%s", folder, s->found);
     if (*s->found == '\0') assert_null(found.path);
