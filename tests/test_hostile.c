@@ -111,7 +111,8 @@ static uint64_t next_random(uint64_t *s) {
   return *s ^= *s << 17;
 }
 
-// One byte of a file becomes another; of PNG, half with right checksums.
+// One byte of a file becomes another; of PNG files and parts, half with right
+// checksums.
 static void every_byte_may_change(void **state) {
   (void)state;
   uint64_t random = 88172645463325252u;
@@ -124,6 +125,7 @@ static void every_byte_may_change(void **state) {
       one->bytes[at] ^= other;
       seed bad = *one;
       if (k % 2 == 0) mend_png(bad.bytes, bad.size);
+      if (k % 2 == 0) mend_part(bad.bytes, bad.size);
       try_input(s.target, bad.bytes, bad.size);
       one->bytes[at] ^= other;
     }

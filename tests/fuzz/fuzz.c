@@ -11,7 +11,9 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t room,
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t room,
                                unsigned seed) {
   size = LLVMFuzzerMutate(data, size, room);
-  if (seed % 4 != 0) mend_png(data, size);
+  if (seed % 4 == 0) return size;
+  mend_png(data, size);
+  mend_part(data, size);
   return size;
 }
 

@@ -4,8 +4,9 @@
 # A finding is left in build/fuzz/; with a name it goes to tests/fuzz/corpus,
 # which tests/test_hostile.c reads ever after.
 
-FUZZ         := obj mtl scene hdr pfm png jpeg tga option script
-FUZZ_MODULES := $(CHAPTER_3) rng post view_state view_script option_table option
+FUZZ         := obj mtl scene hdr pfm png jpeg tga option script part
+FUZZ_MODULES := $(CHAPTER_3) rng post view_state view_script option_table option \
+                bytes digest part part_read shard film
 SECONDS      ?= 300
 FUZZ_SAN     := -fsanitize=address,undefined -fno-sanitize-recover=all
 

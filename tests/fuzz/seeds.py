@@ -4,8 +4,9 @@
     tests/fuzz/seeds.py FOLDER     writes FOLDER/obj/... and so on
 
 Nothing is drawn by chance: the same files every time, those of tests/fuzz/seeds.
-JPEG files need an encoder, which Python's own library has not: jpeg_seeds.c has
-one."""
+JPEG files need an encoder, which Python's own library has not: jpeg_seeds.c has one.  Those of
+part are facet's: of --shard 1/1, of --shard 2/2 --aov normal,depth, and a
+--checkpoint with --error."""
 import pathlib
 import struct
 import sys

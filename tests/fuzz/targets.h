@@ -6,12 +6,15 @@
 #ifndef TARGETS_H
 #define TARGETS_H
 
+#include "bytes.h"
+#include "digest.h"
 #include "hdr.h"
 #include "jpeg.h"
 #include "mtl.h"
 #include "normals.h"
 #include "obj.h"
 #include "option.h"
+#include "part.h"
 #include "pfm.h"
 #include "picture.h"
 #include "png.h"
@@ -23,6 +26,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 // What every reader promises, broken: say so and end.
 static inline void promise(bool kept, const char *what) {
@@ -242,6 +246,29 @@ static inline uint32_t be32(const uint8_t *b) {
          b[3];
 }
 
+// A part of a picture, read in two steps as facet merge does.  It is read from
+// a file by name: this one has none but its number.
+static inline int target_part(const uint8_t *data, size_t size) {
+  enum { MOST_PIXELS = 1 << 20 };
+  char name[] = "/tmp/facet-fuzz-XXXXXX", path[64];
+  int fd = mkstemp(name);
+  promise(fd >= 0 && unlink(name) == 0, "a temporary file");
+  promise(write(fd, data, size) == (ssize_t)size, "its bytes");
+  snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
+  arena mem = {0};
+  error err = {{0}};
+  part p;
+  bool ok = part_read_head(&p, path, &mem, &err);
+  if (ok && (int64_t)part_width(&p) * part_height(&p) <= MOST_PIXELS) {
+    part_films_new(&p, &mem);
+    ok = part_read_sums(&p, path, &err);
+  }
+  if (!ok) check_error(&err);
+  close(fd);
+  arena_free(&mem);
+  return 0;
+}
+
 // Source: ISO/IEC 15948:2003, annex D, bit by bit.
 static inline uint32_t crc_of(const uint8_t *bytes, size_t n) {
   uint32_t crc = UINT32_MAX;
@@ -267,6 +294,27 @@ static inline void mend_png(uint8_t *data, size_t size) {
   }
 }
 
+static inline void seal(uint8_t *to, const uint8_t *bytes, size_t n) {
+  bytes_put_u64(&to, digest_add(DIGEST_START, bytes, n));
+}
+
+// The same for a part, and for its sums where it has one tile only.
+static inline void mend_part(uint8_t *data, size_t size) {
+  if (size < PART_HEAD_BYTES || memcmp(data, PART_MAGIC, 8) != 0) return;
+  const uint8_t *at = data + 12 + 4 * (PART_HEAD_WORDS - 1);
+  size_t head = PART_HEAD_BYTES + (size_t)bytes_get_u32(&at);
+  if (size < head + 8) return;
+  seal(data + head, data, head);
+  at = data + PART_HEAD_BYTES - 8;
+  uint64_t tiles = bytes_get_u64(&at);
+  uint8_t *table = data + head + 8;
+  size_t left = size - head - 8;
+  if (left < 8 || tiles > (left - 8) / PART_ROW_BYTES) return;
+  size_t n = (size_t)tiles * PART_ROW_BYTES;
+  if (tiles == 1) seal(table + n - 8, table + n + 8, left - n - 8);
+  seal(table + n, table, n);
+}
+
 // A target and its name, which names its seeds and its dictionary too.
 typedef struct target {
   const char *name;
@@ -274,10 +322,10 @@ typedef struct target {
 } target;
 
 static const target TARGETS[] = {
-    {"obj", target_obj},       {"mtl", target_mtl}, {"scene", target_scene},
-    {"hdr", target_hdr},       {"pfm", target_pfm}, {"png", target_png},
-    {"jpeg", target_jpeg},     {"tga", target_tga}, {"option", target_option},
-    {"script", target_script},
+    {"obj", target_obj},       {"mtl", target_mtl},   {"scene", target_scene},
+    {"hdr", target_hdr},       {"pfm", target_pfm},   {"png", target_png},
+    {"jpeg", target_jpeg},     {"tga", target_tga},   {"option", target_option},
+    {"script", target_script}, {"part", target_part},
 };
 
 enum { TARGET_COUNT = sizeof TARGETS / sizeof *TARGETS };
