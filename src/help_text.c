@@ -92,7 +92,23 @@ const help_item help_items[] = {
     {NULL, "TMPDIR", "Where bench error keeps the pictures that it compares."},
     {"LIMITS", "Meshes",
      "Fewer than 2^31 vertices, normals, texture coordinates and triangles."},
-    {NULL, "Pictures", "Sides of 1 to 65535 pixels."},
+    {NULL, "Pictures",
+     "Sides of 1 to 65535 pixels; of a file at most 1032 pixels for each byte, "
+     "or 16777216 in all."},
+    {NULL, "Scene files",
+     "4096 mesh, camera and newmtl statements, 512 assign, 65536 light; a film "
+     "of 67108864 pixels, and more only by --resolution."},
+    {NULL, "Names",
+     "What the files of a scene name lies in the folder of SCENE or below, all "
+     "links followed, but with --allow-outside.  1000 names that lead nowhere "
+     "are looked for in other cases of letters, the rest only as they stand."},
+    {NULL, "Kinds of files",
+     "Regular files only are read: no pipes, devices, sockets, folders.  SCENE "
+     "may be standard input."},
+    {NULL, "Memory",
+     "What a stranger's file can make facet hold while it reads: 256 bytes for "
+     "each byte of text, 14000 for each byte of a picture, and 256 MB.  A mesh "
+     "counts as often as a scene names it."},
     {NULL, "Samples", "1 to 16777216 a pixel."},
     {NULL, "Threads", "1 to 1024."},
     {NULL, NULL, NULL},

@@ -1,9 +1,14 @@
 // figures.c — the pictures of chapter 16, and the numbers that its text quotes.
 
+#include "file.h"
+#include "hdr.h"
 #include "part_set.h"
 #include "path.h"
+#include "pfm.h"
 #include "picture.h"
+#include "png.h"
 #include "render.h"
+#include "tga.h"
 #include "wide.h"
 
 #include <stdio.h>
@@ -298,6 +303,96 @@ static void draw_clipped(output *o) {
   publish(o, "clipped", sheet(o, all, 2, 2));
 }
 
+// What became of a picture of which one byte was changed.
+typedef enum outcome {
+  SAME_FILE,
+  REFUSED,
+  SAME_PICTURE,
+  OTHER_PICTURE
+} outcome;
+
+// A small file, and whoever reads it.
+typedef struct subject {
+  const char *path;
+  bool (*load_stored)(pixmap *, FILE *, const char *, arena *, error *);
+  bool (*load_linear)(image *, FILE *, const char *, arena *, error *);
+  uint8_t bytes[256];
+  size_t size;
+} subject;
+
+// The pixels of s as bytes in mem, NULL when it is refused; *n is how many.
+static const void *pixels_of(const subject *s, size_t *n, arena *mem) {
+  error err;
+  pixmap map;
+  image im;
+  FILE *f = fmemopen((void *)(uintptr_t)s->bytes, s->size, "rb");
+  bool ok = f != NULL && (s->load_stored != NULL
+                              ? s->load_stored(&map, f, s->path, mem, &err)
+                              : s->load_linear(&im, f, s->path, mem, &err));
+  if (f != NULL) fclose(f);
+  if (!ok) return NULL;
+  if (s->load_linear != NULL) {
+    *n = (size_t)im.width * (size_t)im.height * sizeof *im.pixels;
+    return im.pixels;
+  }
+  *n = (size_t)map.width * (size_t)map.height * (size_t)map.channels *
+       (size_t)map.depth / 8;
+  return map.samples;
+}
+
+static outcome outcome_of(const subject *s, size_t at, uint8_t value) {
+  if (s->bytes[at] == value) return SAME_FILE;
+  arena mem = {0};
+  subject bad = *s;
+  bad.bytes[at] = value;
+  size_t n = 0, m = 0;
+  const void *right = pixels_of(s, &n, &mem), *got = pixels_of(&bad, &m, &mem);
+  outcome result = OTHER_PICTURE;
+  if (got == NULL)
+    result = REFUSED;
+  else if (right != NULL && n == m && memcmp(right, got, n) == 0)
+    result = SAME_PICTURE;
+  arena_free(&mem);
+  return result;
+}
+
+// A column for each byte of a file, a row for every fourth value, 0 on top.
+static void draw_outcomes(image *im, int top, const subject *s) {
+  static const vec3 color[] = {[SAME_FILE] = {0, 0, 0},
+                               [REFUSED] = {0.72f, 0.72f, 0.72f},
+                               [SAME_PICTURE] = {0.05f, 0.2f, 0.6f},
+                               [OTHER_PICTURE] = {0.9f, 0.35f, 0.02f}};
+  enum { CELL = 4, STEP = 4 };
+  for (size_t at = 0; at < s->size; at++)
+    for (int v = 0; v < 256; v += STEP) {
+      vec3 c = color[outcome_of(s, at, (uint8_t)(v + s->bytes[at] % STEP))];
+      for (int x = 0; x < CELL - 1; x++)
+        im->pixels[(top + v / STEP) * im->width + (int)at * CELL + x] = c;
+    }
+}
+
+// Every byte of four files, changed.
+static void draw_changes(output *o) {
+  subject all[] = {
+      {.path = "tests/fuzz/seeds/png/rgb8", .load_stored = png_load},
+      {.path = "tests/fuzz/seeds/hdr/runs", .load_linear = hdr_load},
+      {.path = "tests/fuzz/seeds/tga/palette", .load_stored = tga_load},
+      {.path = "tests/fuzz/seeds/pfm/colour", .load_linear = pfm_load}};
+  enum { COUNT = sizeof all / sizeof *all, TALL = 64, GAP = 8 };
+  image im = image_new(&o->mem, 4 * 88, COUNT * (TALL + GAP) - GAP);
+  for (int i = 0; i < im.width * im.height; i++)
+    im.pixels[i] = vec3_all(1);
+  for (int i = 0; i < COUNT; i++) {
+    error err;
+    FILE *f = file_open(all[i].path, &err);
+    if (f == NULL) give_up(&err);
+    all[i].size = fread(all[i].bytes, 1, sizeof all[i].bytes, f);
+    fclose(f);
+    draw_outcomes(&im, i * (TALL + GAP), &all[i]);
+  }
+  publish(o, "changes", im);
+}
+
 int main(int argc, char **argv) {
   if (argc != 2) return 2;
   output o = {.folder = argv[1]};
@@ -308,6 +403,7 @@ int main(int argc, char **argv) {
   draw_clipped(&o);
   load(&o, "scenes/cornell.scene");
   draw_seams(&o);
+  draw_changes(&o);
   pool_free(o.threads);
   arena_free(&o.mem);
   return 0;
