@@ -32,14 +32,14 @@ endif
 # module includes only modules on its left or above (tests/floors.t), and the
 # program of a chapter links only the modules that it and the chapters before
 # it explain: the linker proves the reading order.
-CHAPTER_1 := scalar vec error arena report file image png pfm hdr jpeg tga picture metric
+CHAPTER_1 := scalar vec error arena report file image png pfm hdr jpeg tga picture picture_head metric
 CHAPTER_2 := $(CHAPTER_1) cpu_quota pool number text path_find polygon \
              mesh name_table mtl_map mtl mtl_read obj_source obj_corner \
              pages obj_chunk obj_line obj_parse obj_pack obj_merge obj_events obj normals
 CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material \
              statement scene_file mesh_join material_list scene scene_text
 CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah_box sah bvh_part bvh_read bvh_build rays rays_make
-CHAPTER_5 := $(CHAPTER_4) gl_api gl gl_make glsl raster_settings raster_mesh \
+CHAPTER_5 := $(CHAPTER_4) gl_api gl gl_make glsl raster_settings raster_block raster_mesh \
              raster_maps raster_program raster_seen raster_shadow raster_view raster_stock \
              raster_pass raster_once raster
 CHAPTER_6 := $(CHAPTER_5) microfacet dfg bsdf_rough raster_rough
@@ -56,14 +56,15 @@ CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_spl
              wide_flight wide_steps wide_stream wide_kernel wide_base wide_avx2 wide_avx512 wide \
              vertex_many_levels vertex_lanes vertex_lanes_facet vertex_lanes_smooth \
              vertex_many_kernel vertex_many_base vertex_many_avx2 vertex_many_avx512 vertex_many
-CHAPTER_14 := $(CHAPTER_12) post view_state view_script view_paths view_window
+CHAPTER_13 := $(CHAPTER_12) plan_sight plan plan_word plan_use
+CHAPTER_14 := $(CHAPTER_13) post view_state view_script view_paths view_window
 CHAPTER_15 := $(CHAPTER_14) glyph sketch plot two_means halves adaptive doubling
 CHAPTER_16 := $(CHAPTER_15) bytes digest scene_digest part part_read part_set
 LIBRARY   := $(CHAPTER_16)
-CHAPTERS  := 1 2 3 4 5 6 7 8 9 10 11 12 14 15 16 17
+CHAPTERS  := 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17
 # The command line, the only floor that prints and exits.
 COMMAND   := json tonemap progress option_id option_table option cmd_shared cmd_signals \
-             cmd_output cmd_tree cmd_shot cmd_raster cmd_keep cmd_render_say cmd_render cmd_merge cmd_view_say cmd_view cmd_info_scene \
+             cmd_output cmd_tree cmd_shot cmd_plan cmd_forced cmd_raster cmd_keep cmd_render_say cmd_render_plan cmd_render cmd_merge cmd_view_say cmd_view cmd_info_scene \
              cmd_info cmd_compare cmd_bench cmd_bench_raster cmd_ibl cmd_bench_ibl \
              cmd_child cmd_error_run cmd_bench_error \
              help_text cmd_manual cmd_completion cmd_help main

@@ -2,6 +2,8 @@
 
 #include "cmd_info_scene.h"
 
+#include "cmd_plan.h"
+
 #include "path_find.h"
 #include "scene.h"
 
@@ -183,6 +185,28 @@ static void json_stage(json *j, const scene *s) {
   json_close(j, '[');
 }
 
+// What facet render would do with it, by each engine.  Normals are left out:
+// only a render makes those that are missing.
+static bool plan_of_scene(plan *out, const scene_facts *f, bool path) {
+  plan_request r;
+  error err;
+  if (!cmd_plan_usual(&r, &f->s, path, &err)) return false;
+  *out = plan_make(&r, f->mem);
+  out->line[PLAN_NORMALS].told = false;
+  return true;
+}
+
+// The member "plan": a list of stages by engine.
+static void json_plans(json *j, const scene_facts *f) {
+  static const char *const engines[] = {"raster", "path"};
+  json_open(j, "plan", '{');
+  for (int i = 0; i < 2; i++) {
+    plan p;
+    if (plan_of_scene(&p, f, i == 1)) cmd_plan_json(j, engines[i], &p);
+  }
+  json_close(j, '{');
+}
+
 // The object of --json.
 static void print_json_scene(const scene_facts *f) {
   json j = {.out = stdout};
@@ -201,6 +225,7 @@ static void print_json_scene(const scene_facts *f) {
   json_close(&j, '[');
   if (f->has_scene) json_decisions(&j, f);
   if (f->has_scene) json_stage(&j, &f->s);
+  if (f->has_scene) json_plans(&j, f);
   cmd_json_warnings(&j, &f->remarks);
   json_close(&j, '{');
   json_end(&j);
@@ -303,6 +328,10 @@ static void print_text_scene(const scene_facts *f) {
   for (size_t i = 0; f->has_scene && i < f->s.material_count; i++)
     print_material(&f->s.materials[i], f->by_place[i], f->mem);
   if (f->has_scene) print_stage(&f->s, f->mem);
+  for (int i = 0; i < 2 && f->has_scene; i++) {
+    plan p;
+    if (plan_of_scene(&p, f, i == 1)) cmd_plan_print(&p, stdout);
+  }
 }
 
 int info_scene(const options *o, const char *path) {

@@ -3,6 +3,7 @@
 #include "cmd_raster.h"
 
 #include "clock.h"
+#include "cmd_forced.h"
 #include "matter.h"
 
 #include <math.h>
@@ -55,16 +56,25 @@ static bool has_env(const shot *s) {
   return s->scene.env.kind == ENV_SKY || s->scene.env.kind == ENV_MAP;
 }
 
+// Whether the plan, if there is one, asks for a stage.
+static bool needs(const raster_job *job, plan_stage stage) {
+  return job->plan == NULL || plan_needs(job->plan, stage);
+}
+
+static const bool *unseen(const raster_job *job) {
+  return job->settings.spared.unseen;
+}
+
 static bool lobes_lean(const raster_job *job, const shot *s) {
-  return has_env(s) && job->settings.model == RASTER_GGX &&
-         s->o->value[OPT_IBL].words == 0;
+  return needs(job, PLAN_LEAN) && has_env(s) &&
+         job->settings.model == RASTER_GGX && s->o->value[OPT_IBL].words == 0;
 }
 
 // Where lobes look, for the roughness values that will be asked for.
 static void ready_lean(raster_job *job, const shot *s, arena *scratch) {
   lean table;
-  ibl_need need =
-      raster_env_need(&s->scene, PBR_GGX, job->any_roughness, scratch);
+  ibl_need need = raster_env_need(&s->scene, PBR_GGX, job->any_roughness,
+                                  unseen(job), scratch);
   if (need.all)
     lean_build(&table, scratch, s->threads);
   else
@@ -75,6 +85,7 @@ static void ready_lean(raster_job *job, const shot *s, arena *scratch) {
 
 // Metallic-roughness as the path engine has it: the table is the same.
 static void ready_rough(raster_job *job, const shot *s) {
+  if (!needs(job, PLAN_TABLE)) return;
   double start = clock_seconds();
   pbr_model model = job->settings.model == RASTER_REPORT ? PBR_REPORT : PBR_GGX;
   if (job->table == NULL)
@@ -93,11 +104,15 @@ static void ready_rough(raster_job *job, const shot *s) {
 static void ready_env(raster_job *job, const shot *s, arena *mem) {
   const env *e = &s->scene.env;
   if (!has_env(s) || job->settings.shading != RASTER_RADIANCE) return;
+  if (!needs(job, PLAN_IBL)) return;
   pbr_model model = job->settings.model == RASTER_REPORT ? PBR_REPORT : PBR_GGX;
   ibl made;
-  ibl_need need = raster_env_need(&s->scene, model, job->any_roughness, s->mem);
+  ibl_need need = raster_env_need(&s->scene, model, job->any_roughness,
+                                  unseen(job), s->mem);
   ibl_make(&made, e, &need, s->mem, s->threads);
   job->env_seconds = made.seconds;
+  job->sums = 1 + made.level_count;
+  job->sum_bytes = (double)ibl_bytes(&made);
   job->env = raster_env_new(job->g, &made, mem);
   job->settings.ambient = raster_env_piece(&job->env);
 }
@@ -141,6 +156,31 @@ bool raster_job_draw(render_result *out, raster_job *job, const shot *s,
   drop_non_finite(out, s);
   out->seconds = clock_seconds() - start;
   return true;
+}
+
+// What the pictures of the frame took, by stage.
+static void note_frame(const raster_job *job, plan *p) {
+  raster_counts n = raster_last_counts(job->r);
+  const raster_times *t = &job->times;
+  plan_note(p, PLAN_TRIANGLES, n.uploaded, t->upload, (double)n.bytes);
+  plan_note(p, PLAN_DRAW_LIST, n.drawn, t->draw, 0);
+  plan_note(p, PLAN_VISIBILITY, n.once, -1, 0);
+  plan_note(p, PLAN_RESOLVE, n.resolves, -1, 0);
+  plan_note(p, PLAN_KINDS, n.kinds, t->compile, 0);
+  plan_note(p, PLAN_SKY, n.skies, -1, 0);
+  plan_note(p, PLAN_LAMPS, n.lamps, -1, 0);
+  plan_note(p, PLAN_SHADOW_MAPS, n.layers, t->shadow, (double)n.shadow_bytes);
+}
+
+void raster_job_note(const raster_job *job, plan *p, const shot *s) {
+  note_frame(job, p);
+  bool leans = job->lean.texture != 0;
+  plan_note(p, PLAN_TABLE, job->rough.texture != 0, job->table_seconds, 0);
+  plan_note(p, PLAN_LEAN, leans, -1, 0);
+  plan_note(p, PLAN_IBL, (uint64_t)job->sums, job->env_seconds, job->sum_bytes);
+  plan_note(p, PLAN_TREE, 0, 0, 0);
+  cmd_forced_tables(p, s);
+  cmd_forced_tree(p, s);
 }
 
 void raster_job_json(json *j, const raster_job *job) {

@@ -3,7 +3,7 @@
 #ifndef CMD_RASTER_H
 #define CMD_RASTER_H
 
-#include "cmd_shot.h"
+#include "cmd_plan.h"
 #include "dfg.h"
 #include "raster.h"
 #include "raster_env.h"
@@ -23,7 +23,10 @@ typedef struct raster_job {
   double table_seconds;  // to make the table
   raster_env env;        // light from the environment, in the context
   double env_seconds;    // to prepare it
-  bool any_roughness;    // materials may change after the upload
+  int sums;              // of its light that were prepared
+  double sum_bytes;
+  bool any_roughness;  // materials may change after the upload
+  const plan *plan;    // NULL: everything is needed
 } raster_job;
 
 // Open the context that --gl asks for.  On failure (exit status 5) err names
@@ -37,6 +40,9 @@ raster_settings raster_job_settings(const shot *s);
 // materials need besides, which is put into the settings; exit status 5 on
 // failure.
 bool raster_job_upload(raster_job *job, const shot *s, arena *mem, error *err);
+
+// Tell the plan what was uploaded and drawn, and with --no-skip do the rest.
+void raster_job_note(const raster_job *job, plan *p, const shot *s);
 
 // Draw the shot: the picture and those aovs (bits of render.h) that the
 // engine has.  Pixels that are not finite are set to 0 and counted.

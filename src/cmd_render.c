@@ -1,12 +1,12 @@
 // cmd_render.c — facet render: from a scene and a command line to a picture.
 
-#include "cmd_render_say.h"
-
+#include "cmd_render_plan.h"
 #include "cmd_signals.h"
 
 #include "adaptive.h"
 #include "clock.h"
 #include "doubling.h"
+#include "plan_use.h"
 #include "vertex_many.h"
 
 #include <string.h>
@@ -129,7 +129,7 @@ static void choose_settings(render_job *j) {
       .spp = (int)v[OPT_SPP].whole[0],
       .seed = (uint64_t)v[OPT_SEED].whole[0],
       .shading = shadings[v[OPT_SHADING].words],
-      .aovs = v[OPT_AOV].words,
+      .aovs = render_plan_films(j),
       .error = v[OPT_ERROR].given ? (double)v[OPT_ERROR].number[0] : 0,
       .stop = &signal_stop,
       .progress = progress_show,
@@ -143,11 +143,20 @@ static void choose_settings(render_job *j) {
   if (v[OPT_TIME].given)
     j->settings.deadline = j->o->started + (double)v[OPT_TIME].number[0] -
                            WRITE_SECONDS * sh->width * sh->height;
-  j->world = (path_world){.scene = &sh->scene,
-                          .lights = v[OPT_LIGHTS].words == 0,
-                          .max_depth = (int)v[OPT_MAX_DEPTH].whole[0]};
-  j->world.dfg = matter_table_as_is(
-      &sh->scene, (pbr_model)v[OPT_PBR_MODEL].words, sh->mem, sh->threads);
+  if (given(j, OPT_QUIET)) j->settings.progress = NULL;
+}
+
+// What paths walk through, as far as the plan wants it.
+static void ready_world(render_job *j) {
+  const shot *sh = &j->shot;
+  pbr_model model = (pbr_model)j->o->value[OPT_PBR_MODEL].words;
+  double start = clock_seconds();
+  j->world = (path_world){.scene = &sh->scene};
+  plan_settle_paths(&j->plan, &j->world);
+  if (plan_needs(&j->plan, PLAN_TABLE))
+    j->world.dfg = matter_table_as_is(&sh->scene, model, sh->mem, sh->threads);
+  plan_note(&j->plan, PLAN_TABLE, j->world.dfg != NULL, clock_seconds() - start,
+            0);
 }
 
 // Who walks: path_naive by --integrator naive, with random numbers.
@@ -158,14 +167,19 @@ static void choose_integrator(render_job *j) {
     j->naive = (path_naive){&j->world, seed};
     j->by = path_naive_integrator(&j->naive);
   } else {
-    light_set_build(&j->lights, &j->shot.scene, j->world.lights, true,
-                    j->shot.mem, j->shot.threads);
+    light_set_build(&j->lights, &j->shot.scene, j->world.lights,
+                    plan_needs(&j->plan, PLAN_ENV_TABLE), j->shot.mem,
+                    j->shot.threads);
     j->paths = (path_tracer){.world = &j->world,
                              .lights = &j->lights,
                              .vertices = vertex_many_best(),
                              .sampler = (sampler_kind)v[OPT_SAMPLER].words,
                              .seed = seed};
     j->by = path_integrator(&j->paths);
+  }
+  if (!plan_needs(&j->plan, PLAN_PATHS)) {
+    j->dark = j->by;
+    j->by = plan_dark(&j->dark);
   }
   j->settings.by = &j->by;
 }
@@ -185,9 +199,8 @@ static void choose_guide(render_job *j) {
     j->halves = (halves_walk){&j->by, (uint64_t)s->width * (uint64_t)s->height};
     j->twice = halves_integrator(&j->halves);
     s->by = &j->twice;
-  } else if (cmd_keep_wanted(&j->keep)
-                 ? j->keep.part.films >> PART_MARKS & 1
-                 : given(j, OPT_JSON) || !given(j, OPT_QUIET)) {
+  } else if (cmd_keep_wanted(&j->keep) ? j->keep.part.films >> PART_MARKS & 1
+                                       : plan_needs(&j->plan, PLAN_ESTIMATE)) {
     j->keep.doubling = doubling_new(sh->mem, w, h);
     j->guide = doubling_guide(j->keep.doubling);
   } else {
@@ -202,6 +215,7 @@ static int run_path(render_job *j) {
   shot *s = &j->shot;
   const mesh *m = &s->scene.mesh;
   choose_settings(j);
+  ready_world(j);
   int code = cmd_keep_open(&j->keep, s, &j->settings);
   if (code != EXIT_DONE) return code;
   bool open = j->settings.spp == SPP_WITHOUT_LIMIT;
@@ -215,6 +229,7 @@ static int run_path(render_job *j) {
   signals_catch_stop();
   render_run(&j->result, &j->world, &s->view, &j->settings, s->mem, s->threads);
   progress_clear(&j->display);
+  render_plan_note_paths(j);
   return EXIT_DONE;
 }
 
@@ -223,11 +238,14 @@ static int run_raster(render_job *j) {
   error err;
   signals_catch_stop();
   j->raster.settings = raster_job_settings(&j->shot);
-  if (raster_job_upload(&j->raster, &j->shot, j->shot.mem, &err) &&
-      raster_job_draw(&j->result, &j->raster, &j->shot,
-                      j->o->value[OPT_AOV].words, &err))
-    return EXIT_DONE;
-  return cmd_fail(j->o, EXIT_RESOURCES, "%s", err.text);
+  j->raster.plan = &j->plan;
+  plan_settle(&j->plan, &j->raster.settings);
+  if (!raster_job_upload(&j->raster, &j->shot, j->shot.mem, &err) ||
+      !raster_job_draw(&j->result, &j->raster, &j->shot, render_plan_films(j),
+                       &err))
+    return cmd_fail(j->o, EXIT_RESOURCES, "%s", err.text);
+  raster_job_note(&j->raster, &j->plan, &j->shot);
+  return EXIT_DONE;
 }
 
 // Dropped samples are a defect of ours; say where, so that it can be found.
@@ -257,17 +275,17 @@ static int prepare(render_job *j) {
   if (code == EXIT_DONE) code = cmd_keep_aim(&j->keep, j->out.part);
   if (code != EXIT_DONE) return code;
   signals_catch_snapshot();
-  if ((code = shot_read(&j->shot)) != EXIT_DONE) return code;
+  if ((code = shot_open(&j->shot)) != EXIT_DONE) return code;
   if ((code = choose_engine(j)) != EXIT_DONE) return code;
   output_warn(&j->out, &j->shot.remarks);
-  if ((code = shot_remark(&j->shot)) != EXIT_DONE) return code;
   code = output_protect_inputs(&j->out, &j->shot.scene, j->shot.mem);
   if (code != EXIT_DONE) return code;
+  if ((code = shot_frame(&j->shot)) != EXIT_DONE) return code;
+  if ((code = render_plan_make(j)) != EXIT_DONE) return code;
   j->out.exposure = given(j, OPT_EXPOSURE) ? j->o->value[OPT_EXPOSURE].number[0]
                                            : j->shot.scene.exposure;
-  code = shot_frame(&j->shot);
   j->out.pane.x0 = j->shot.x0, j->out.pane.y0 = j->shot.y0;
-  return code;
+  return shot_remark(&j->shot);
 }
 
 // All stages; an exit code.
@@ -279,6 +297,8 @@ static int run_job(render_job *j) {
   if (code == EXIT_DONE) code = check_samples(j);
   if (code == EXIT_DONE) code = write_picture(j);
   if (code != EXIT_DONE) return code;
+  render_plan_note_output(j);
+  if (given(j, OPT_EXPLAIN)) cmd_plan_print(&j->plan, stderr);
   if (!given(j, OPT_QUIET)) render_job_say(j);
   if (given(j, OPT_JSON)) render_job_json(j);
   if (j->result.stopped) return EXIT_EARLY;

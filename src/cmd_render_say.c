@@ -92,6 +92,7 @@ void render_job_json(const render_job *job) {
     json_path(&j, job);
   else
     raster_job_json(&j, &job->raster);
+  cmd_plan_json(&j, "plan", &job->plan);
   json_close(&j, '{');
   json_end(&j);
 }

@@ -21,6 +21,7 @@ typedef struct render_job {
   const options *o;
   shot shot;
   output out;
+  plan plan;
   cmd_keep keep;
   engine engine;
   raster_job raster;  // of one engine
@@ -29,7 +30,7 @@ typedef struct render_job {
   light_set lights;   // and looks for
   path_tracer paths;  // by one of these
   path_naive naive;
-  integrator by;
+  integrator by, dark;
   integrator twice;  // by, for both halves
   halves_walk halves;
   render_guide guide;

@@ -2,6 +2,7 @@
 
 #include "cmd_shot.h"
 
+#include "plan.h"
 #include "text.h"
 
 #include <math.h>
@@ -31,15 +32,33 @@ static void force_model(shot *s) {
   }
 }
 
-int shot_read(shot *s) {
+// Say what is wrong with the input, and what was noticed before.
+static int refuse_input(const shot *s, const error *err) {
+  cmd_remarks(s->o, &s->remarks);
+  return cmd_fail(s->o, EXIT_INPUT, "%s", err->text);
+}
+
+// Normals as they are asked for; none where no pixel shows them.
+static normals_mode choose_normals(const option_value *v) {
+  static const render_shading shadings[] = {RENDER_RADIANCE, RENDER_RADIANCE,
+                                            RENDER_RADIANCE, RENDER_NORMAL,
+                                            RENDER_DEPTH,    RENDER_ALBEDO};
+  render_shading shown = shadings[v[OPT_SHADING].words];
+  if (v[OPT_NO_SKIP].given || plan_shows_normals(shown, v[OPT_AOV].words))
+    return (normals_mode)v[OPT_NORMALS].words;
+  return NORMALS_FLAT;
+}
+
+int shot_open(shot *s) {
   const option_value *v = s->o->value;
   const char *path = s->o->operands[0];
   scene_options so = {
-      .normals = (normals_mode)v[OPT_NORMALS].words,
+      .normals = choose_normals(v),
       .crease_deg = v[OPT_CREASE].number[0],
       .no_name_rules = v[OPT_NO_NAME_RULES].given,
       .allow_outside = v[OPT_ALLOW_OUTSIDE].given,
       .up_z = v[OPT_UP_AXIS].words == 1,
+      .skip_textures = true,
       .env = v[OPT_ENV].text,
   };
   if (v[OPT_ENV_ROTATE].given) so.env_rotate_deg = v[OPT_ENV_ROTATE].number;
@@ -50,12 +69,21 @@ int shot_read(shot *s) {
   if (ok && s->scene.mesh.triangle_count == 0 &&
       !cmd_has_suffix(path, ".scene"))
     ok = fail(&err, "%s: nothing to render, it has no faces", path);
-  if (!ok) {
-    cmd_remarks(s->o, &s->remarks);
-    return cmd_fail(s->o, EXIT_INPUT, "%s", err.text);
-  }
+  if (!ok) return refuse_input(s, &err);
   force_model(s);
   return EXIT_DONE;
+}
+
+int shot_decode(shot *s, const unsigned *wanted, bool environment) {
+  error err;
+  bool ok =
+      scene_decode(&s->scene, wanted, environment, s->mem, &s->remarks, &err);
+  return ok ? EXIT_DONE : refuse_input(s, &err);
+}
+
+int shot_read(shot *s) {
+  int code = shot_open(s);
+  return code == EXIT_DONE ? shot_decode(s, NULL, true) : code;
 }
 
 int shot_remark(const shot *s) {
@@ -69,9 +97,9 @@ int shot_remark(const shot *s) {
 // Width and height: the flag, the scene's film line, the default.
 static void choose_size(shot *s) {
   const option_value *v = &s->o->value[OPT_RESOLUTION];
-  bool film = !v->given && s->scene.film_width > 0;
-  s->width = film ? s->scene.film_width : (int)v->whole[0];
-  s->height = film ? s->scene.film_height : (int)v->whole[1];
+  bool given = !v->given && s->scene.film_width > 0;
+  s->width = given ? s->scene.film_width : (int)v->whole[0];
+  s->height = given ? s->scene.film_height : (int)v->whole[1];
 }
 
 // --crop, checked against the size; an exit code.

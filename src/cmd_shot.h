@@ -24,6 +24,14 @@ typedef struct shot {
 // surfaces.  An exit code; when it is not EXIT_DONE, all has been said.
 int shot_read(shot *s);
 
+// The same without the pictures that the scene names: they are found, not
+// decoded.  shot_decode follows.
+int shot_open(shot *s);
+
+// Decode the textures of each material whose bits are set in wanted, or all
+// where that is NULL, and the map of the environment; an exit code.
+int shot_decode(shot *s, const unsigned *wanted, bool environment);
+
 // Print what was noticed so far; with --strict a warning is an error.  An exit
 // code.
 int shot_remark(const shot *s);

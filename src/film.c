@@ -21,6 +21,12 @@ void film_copy(film *to, const film *from) {
     memcpy(to->square, from->square, n * sizeof *to->square);
 }
 
+size_t film_bytes(const film *f) {
+  size_t pixel = sizeof *f->sum + sizeof *f->count;
+  if (f->square != NULL) pixel += sizeof *f->square;
+  return f->sum == NULL ? 0 : pixel * (size_t)f->width * (size_t)f->height;
+}
+
 void film_add(film *f, size_t i, vec3 sample) {
   double x[3] = {(double)sample.x, (double)sample.y, (double)sample.z};
   f->count[i]++;

@@ -19,6 +19,9 @@ film film_new(arena *mem, int width, int height, bool with_variance);
 // Make to hold what from holds: films of one size, both with squares or none.
 void film_copy(film *to, const film *from);
 
+// Bytes of its sums; 0 of one that is not there.
+size_t film_bytes(const film *f);
+
 // One more sample of pixel i, which must be finite.
 void film_add(film *f, size_t i, vec3 sample);
 

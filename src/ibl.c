@@ -39,6 +39,12 @@ static void choose_levels(ibl *b, const ibl_need *need) {
     add_level(b, standard_levels[i]);
 }
 
+int ibl_levels_of(const ibl_need *need) {
+  ibl b;
+  choose_levels(&b, need);
+  return b.level_count;
+}
+
 // What the threads need to fill a level.
 typedef struct level_job {
   const ibl_source *source;
@@ -114,6 +120,14 @@ static int levels_listed(ibl_level *all, const ibl *b) {
     all[n++] = b->level[i];
   if (b->irradiance.texels != NULL) all[n++] = b->irradiance;
   return n;
+}
+
+size_t ibl_bytes(const ibl *b) {
+  ibl_level all[IBL_MAX_LEVELS + 1];
+  size_t bytes = 0;
+  for (int i = levels_listed(all, b); i-- > 0;)
+    bytes += ibl_level_texels(&all[i]) * sizeof(vec3);
+  return bytes;
 }
 
 void ibl_make(ibl *out, const env *e, const ibl_need *need, arena *mem,

@@ -38,6 +38,12 @@ typedef struct ibl {
 void ibl_make(ibl *out, const env *e, const ibl_need *need, arena *mem,
               pool *threads);
 
+// Bytes of the sums.
+size_t ibl_bytes(const ibl *b);
+
+// How many levels of roughness that makes.
+int ibl_levels_of(const ibl_need *need);
+
 // Irradiance on a surface of unit normal n, true irradiance: 1 all around
 // gives pi.  Never negative.
 vec3 ibl_irradiance(const ibl *b, vec3 n);

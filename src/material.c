@@ -118,7 +118,8 @@ static bool rule_name(material *m, const mtl_material *w, const char *name,
 
 // A texture statement of w; the picture comes later.
 static texture_map map_of(const mtl_material *w, mtl_key key, bool is_color) {
-  return (texture_map){NULL, w->map[key - MTL_FIRST_MAP], is_color};
+  return (texture_map){.options = w->map[key - MTL_FIRST_MAP],
+                       .is_color = is_color};
 }
 
 // Everything that w says, before any rule.  A map stands for a number that is
@@ -185,4 +186,26 @@ material material_decide(const material_use *use, arena *mem) {
   m.passes =
       m.kind != MATERIAL_GLASS && (m.d < 1 || m.map_d.options.path != NULL);
   return m;
+}
+
+texture_map *material_map(material *m, int k) {
+  texture_map *const all[MATERIAL_MAPS] = {
+      &m->map_kd, &m->map_ks, &m->map_ke,   &m->map_ns,  &m->map_d,
+      &m->map_pr, &m->map_pm, &m->map_bump, &m->map_norm};
+  return all[k];
+}
+
+unsigned material_reads(const material *m, material_kind as) {
+  enum { KD = 1, KS = 2, KE = 4, NS = 8, D = 16, PR = 32, PM = 64 };
+  const unsigned normals = 128 | 256;
+  unsigned reads = normals;
+  if (vec3_peak(m->ke) > 0) reads |= KE;
+  if (m->passes) reads |= D;
+  switch (as) {
+  case MATERIAL_BLINN_PHONG: return reads | KD | KS | NS;
+  case MATERIAL_METAL_ROUGH: return reads | KD | PR | PM;
+  case MATERIAL_MIRROR: return reads | KS;
+  case MATERIAL_GLASS: break;
+  }
+  return reads;
 }

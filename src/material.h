@@ -56,4 +56,13 @@ bool material_has_word(const char *text, const char *word);
 
 const char *material_kind_name(material_kind k);
 
+// The texture statements of a material by number: kd, ks, ke, ns, d, pr, pm,
+// bump, norm.
+enum { MATERIAL_MAPS = 9 };
+texture_map *material_map(material *m, int k);
+
+// Which of them a surface of kind `as` looks at when it is shaded: bit k is
+// statement k.  The others make no difference to any picture.
+unsigned material_reads(const material *m, material_kind as);
+
 #endif

@@ -161,15 +161,15 @@ bool material_list_decide(material_list *out, const mesh *m,
   return true;
 }
 
-// Load the texture that statement `key` of w names.
-static void load_map(texture_map *map, const mtl_material *w, mtl_key key,
-                     texture_store *store, bool skip, report *r) {
+// Find the texture that statement `key` of w names, and read its head.  A path
+// is checked once: what is wrong with it is noted in the store.
+static void find_map(texture_map *map, const mtl_material *w, mtl_key key,
+                     texture_store *store, report *r) {
   if (map->options.path == NULL || w == NULL) return;
   arena *mem = store->mem;
   const char *place = arena_format(mem, "%s:%u", w->file, w->line[key]);
   path_search where = {store->root, w->folder, place, mem, r, &store->misses};
   path_found found = path_find(&where, map->options.path);
-  if (found.path != NULL && skip) return;
   if (found.outside) {
     const char *why = path_missing(&found, "texture", mem);
     if (texture_refuse(store, found.tried, why))
@@ -177,39 +177,62 @@ static void load_map(texture_map *map, const mtl_material *w, mtl_key key,
     return;
   }
   error why;
-  size_t before = store->count;
+  size_t before = store->failed;
   const char *path = found.path != NULL ? found.path : found.tried;
-  map->image = texture_get(store, path, r, &why);
-  if (map->image == NULL && store->count != before)
+  map->found = texture_check(store, path, &why);
+  if (map->found == NULL && store->failed != before)
     report_warn(r, "%s: texture left out: %s", place, why.text);
 }
 
 // Take back what m says only because of a map that could not be loaded.
 static void forget_missing_maps(material *m, const mtl_material *w) {
   mtl_material usual = mtl_default("");
-  if (m->map_kd.image == NULL && w->line[MTL_KD] == 0) m->kd = usual.kd;
-  if (m->map_ks.image == NULL && w->line[MTL_KS] == 0) m->ks = usual.ks;
-  if (m->map_ke.image == NULL && w->line[MTL_KE] == 0) m->ke = usual.ke;
-  if (m->map_ns.image == NULL && w->line[MTL_NS] == 0) m->ns = usual.ns;
-  if (m->map_pr.image == NULL && w->line[MTL_PR] == 0) m->roughness = usual.pr;
-  if (m->map_pm.image == NULL && w->line[MTL_PM] == 0) m->metallic = usual.pm;
-  if (m->map_d.image == NULL && !(m->d < 1)) m->passes = false;
+  if (m->map_kd.found == NULL && w->line[MTL_KD] == 0) m->kd = usual.kd;
+  if (m->map_ks.found == NULL && w->line[MTL_KS] == 0) m->ks = usual.ks;
+  if (m->map_ke.found == NULL && w->line[MTL_KE] == 0) m->ke = usual.ke;
+  if (m->map_ns.found == NULL && w->line[MTL_NS] == 0) m->ns = usual.ns;
+  if (m->map_pr.found == NULL && w->line[MTL_PR] == 0) m->roughness = usual.pr;
+  if (m->map_pm.found == NULL && w->line[MTL_PM] == 0) m->metallic = usual.pm;
+  if (m->map_d.found == NULL && !(m->d < 1)) m->passes = false;
 }
 
-void material_list_textures(material_list *list, texture_store *store,
-                            bool skip, report *r) {
+// The statements, in the order of material_map.
+static const mtl_key map_keys[MATERIAL_MAPS] = {
+    MTL_MAP_KD, MTL_MAP_KS, MTL_MAP_KE,   MTL_MAP_NS,   MTL_MAP_D,
+    MTL_MAP_PR, MTL_MAP_PM, MTL_MAP_BUMP, MTL_MAP_NORM,
+};
+
+void material_list_find(material_list *list, texture_store *store, report *r) {
   for (size_t i = 0; i < list->count; i++) {
     material *m = &list->materials[i];
     const mtl_material *w = m->source;
-    load_map(&m->map_kd, w, MTL_MAP_KD, store, skip, r);
-    load_map(&m->map_ks, w, MTL_MAP_KS, store, skip, r);
-    load_map(&m->map_ke, w, MTL_MAP_KE, store, skip, r);
-    load_map(&m->map_ns, w, MTL_MAP_NS, store, skip, r);
-    load_map(&m->map_d, w, MTL_MAP_D, store, skip, r);
-    load_map(&m->map_pr, w, MTL_MAP_PR, store, skip, r);
-    load_map(&m->map_pm, w, MTL_MAP_PM, store, skip, r);
-    load_map(&m->map_bump, w, MTL_MAP_BUMP, store, skip, r);
-    load_map(&m->map_norm, w, MTL_MAP_NORM, store, skip, r);
-    if (w != NULL && !skip) forget_missing_maps(m, w);
+    for (int k = 0; k < MATERIAL_MAPS; k++)
+      find_map(material_map(m, k), w, map_keys[k], store, r);
+    if (w != NULL) forget_missing_maps(m, w);
+  }
+}
+
+// Decode one; what is damaged behind a good head is a map that is missing.
+static void decode_map(texture_map *map, const mtl_material *w, mtl_key key,
+                       texture_store *store, report *r) {
+  if (map->found == NULL || map->image != NULL) return;
+  error why;
+  size_t before = store->failed;
+  map->image = texture_get(store, map->found, r, &why);
+  if (map->image != NULL) return;
+  map->found = NULL;
+  if (store->failed != before)
+    report_warn(r, "%s:%u: texture left out: %s", w->file, w->line[key],
+                why.text);
+}
+
+void material_list_decode(material_list *list, texture_store *store,
+                          const unsigned *wanted, report *r) {
+  for (size_t i = 0; i < list->count; i++) {
+    material *m = &list->materials[i];
+    for (int k = 0; k < MATERIAL_MAPS; k++)
+      if (wanted == NULL || (wanted[i] >> k & 1) != 0)
+        decode_map(material_map(m, k), m->source, map_keys[k], store, r);
+    if (m->source != NULL) forget_missing_maps(m, m->source);
   }
 }

@@ -30,10 +30,13 @@ bool material_list_decide(material_list *out, const mesh *m,
                           const scene_file *file, bool name_rules, arena *mem,
                           error *err);
 
-// Load the textures of all materials; one that cannot be had is left out with
-// a warning that names the path tried.  With `skip` only look whether they
-// exist.
-void material_list_textures(material_list *list, texture_store *store,
-                            bool skip, report *r);
+// Find the textures of all materials and read their heads; one that cannot be
+// had is left out with a warning that names the path tried.
+void material_list_find(material_list *list, texture_store *store, report *r);
+
+// Decode what was found: of material i the statements whose bits are set in
+// wanted[i], or all where wanted is NULL.
+void material_list_decode(material_list *list, texture_store *store,
+                          const unsigned *wanted, report *r);
 
 #endif

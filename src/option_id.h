@@ -69,6 +69,8 @@ typedef enum option_id {
   OPT_MAN,
   OPT_COMPLETION,
   OPT_THREADS,
+  OPT_EXPLAIN,
+  OPT_NO_SKIP,
   OPT_STRICT,
   OPT_JSON,
   OPT_QUIET,

@@ -327,6 +327,14 @@ const option option_table[OPTION_COUNT] = {
          OPTION_WHOLE, "N", NULL, 1, 1024,
          .help = "worker threads (default: what CPU affinity, the cgroup's "
                  "quota and SLURM_CPUS_PER_TASK allow)"},
+    [OPT_EXPLAIN] =
+        {"explain", 0, CMD_RENDER, OPTION_SWITCH,
+         .help = "print the plan on standard error: of each stage how much was "
+                 "needed, why, and its seconds and bytes"},
+    [OPT_NO_SKIP] =
+        {"no-skip", 0, CMD_RENDER, OPTION_SWITCH,
+         .help = "do what the picture does not need as well: the same picture, "
+                 "later; for measuring what --explain says is saved"},
     [OPT_STRICT] =
         {"strict", 0, CMD_RENDER | CMD_VIEW, OPTION_SWITCH,
          .help = "a warning is an error: exit status 1, nothing written"},
@@ -344,5 +352,8 @@ const option option_table[OPTION_COUNT] = {
 };
 
 const char *const later_words[] = {
-    "wide", "explain", ".exr", "exr", NULL,
+    "wide",
+    ".exr",
+    "exr",
+    NULL,
 };

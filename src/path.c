@@ -123,6 +123,7 @@ static void meet_glow(const wave *w, path *p, const vertex *v) {
 static void ask_light(wave *w, const stop *s, const bsdf *b) {
   const vertex *v = s->at;
   const path *p = &w->paths[s->which];
+  w->stats->asked++;
   vec3 u = {s->u[USE_PICK], s->u[USE_LIGHT], s->u[USE_LIGHT + 1]};
   light_sample l;
   if (!light_sample_at(w->by->lights, v->at.p, v->n, u, &l)) return;
@@ -133,7 +134,10 @@ static void ask_light(wave *w, const stop *s, const bsdf *b) {
   if (!l.delta) scale *= power_weight(l.pdf, bsdf_pdf(b, wo, wi));
   vec3 lit = vec3_mul(vec3_mul(p->throughput, f), l.radiance);
   lit = vec3_scale(lit, scale);
-  if (!(vec3_peak(lit) > 0)) return;
+  if (!(vec3_peak(lit) > 0)) {
+    if (!w->by->world->thorough) return;
+    lit = vec3_all(0);
+  }
   light_ray to = {.is_point = l.has_end, .to = l.to, .wi = l.wi};
   size_t i = w->shadow_count++;
   w->shadow_rays[i] = light_ray_shadow(&to, &v->at, true);
@@ -262,6 +266,7 @@ static void light_all(wave *w) {
   const path_world *world = w->by->world;
   tracer_any_many(&world->tracer, w->shadow_rays, w->blocked, w->shadow_count);
   w->stats->rays += w->shadow_count;
+  w->stats->shadows += w->shadow_count;
   for (size_t i = 0; i < w->shadow_count; i++) {
     const shadow *s = &w->shadows[i];
     float share = 1;
@@ -290,8 +295,9 @@ static void path_radiance(const void *self, const path_start *starts, size_t n,
   wave *w = room;
   w->by = by;
   w->stats = stats;
-  w->sheets = scene_has_sheets(by->world->scene);
-  w->lights = light_set_any(by->lights);
+  stats->followed += n;
+  w->sheets = by->world->thorough || scene_has_sheets(by->world->scene);
+  w->lights = by->world->thorough || light_set_any(by->lights);
   w->count = n;
   for (size_t i = 0; i < n; i++) {
     w->paths[i] =

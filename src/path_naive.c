@@ -132,6 +132,7 @@ static void naive_radiance(const void *self, const path_start *starts, size_t n,
                            vec3 *out, path_stats *stats, void *room) {
   (void)room;
   const path_naive *p = self;
+  stats->followed += n;
   for (size_t i = 0; i < n; i++) {
     rng random = rng_of(p->seed, starts[i].pixel, starts[i].sample);
     random.dimension = 2;

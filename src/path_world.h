@@ -12,12 +12,16 @@ typedef struct path_world {
   bool lights;     // point and directional lights on
   int max_depth;   // segments: 1 emission seen, 2 direct light; 0 roulette only
   const dfg *dfg;  // matter_table of the scene
+  bool thorough;   // also do what adds nothing (chapter 13)
 } path_world;
 
 // What paths did.
 typedef struct path_stats {
-  uint64_t rays;  // closest and any
-  uint64_t cut;   // paths ended by the limit on their length: lost light
+  uint64_t rays;      // closest and any
+  uint64_t cut;       // paths ended by the limit on their length: lost light
+  uint64_t followed;  // paths
+  uint64_t asked, shadows;  // light samples, and shadow rays of them
+  uint64_t through;         // blocked shadow rays that look for sheets
 } path_stats;
 
 // Where a path begins: the camera ray of a sample of a pixel, numbered in the

@@ -9,6 +9,7 @@
 struct raster {
   raster_stock stock;
   raster_times times;
+  raster_counts counts;  // of the last frame, without the passes after it
   arena *mem;
 };
 
@@ -84,23 +85,36 @@ static bool ready_target(raster_stock *s, raster_shading shading, error *err) {
                                             w.y1 - w.y0, s->set.msaa, err);
 }
 
-// The programs that the frame needs, before it is timed.
-static bool ready_programs(raster_stock *s, error *err) {
-  bool once = draws_once(s, s->set.shading);
-  for (size_t i = 0; i < s->mesh.part_count; i++) {
+// A program for each kind of surface, whether the scene has it or not.
+static bool ready_kinds(raster_stock *s, bool once, error *err) {
+  for (int k = MATERIAL_BLINN_PHONG; k <= MATERIAL_GLASS; k++) {
     GLuint program;
-    if (s->mesh.parts[i].count == 0) continue;
-    raster_variant v =
-        raster_variant_of(&s->set, &s->materials[i], s->set.shading);
+    material m = GREY;
+    m.kind = (material_kind)k;
+    raster_variant v = raster_variant_of(&s->set, &m, s->set.shading);
     v.once = once;
     if (!raster_program_get(&program, &s->programs, v, err)) return false;
   }
   return true;
 }
 
+// The programs that the frame needs, before it is timed.
+static bool ready_programs(raster_stock *s, error *err) {
+  bool once = draws_once(s, s->set.shading);
+  for (size_t i = 0; i < s->mesh.part_count; i++) {
+    GLuint program;
+    if (raster_pass_leaves(s, i)) continue;
+    raster_variant v =
+        raster_variant_of(&s->set, &s->materials[i], s->set.shading);
+    v.once = once;
+    if (!raster_program_get(&program, &s->programs, v, err)) return false;
+  }
+  return !s->set.thorough || ready_kinds(s, once, err);
+}
+
 static bool upload(raster *r, arena *mem, error *err) {
   raster_stock *s = &r->stock;
-  raster_mesh_upload(&s->mesh, s->g, s->scene, mem);
+  raster_mesh_upload(&s->mesh, s->g, s->scene, s->set.spared.edges, mem);
   s->space = space_of(s);
   s->maps = raster_maps_upload(s->g, s->scene, mem);
   copy_materials(s, mem);
@@ -168,12 +182,16 @@ static bool draw_shadows(raster *r, error *err) {
 static bool draw_frame(raster *r, const camera_view *view, error *err) {
   raster_stock *s = &r->stock;
   double compiled = s->programs.seconds;
-  s->view = raster_view_of(view, raster_window_of(&s->set), s->scene, s->space);
+  raster_window w = raster_window_of(&s->set);
+  s->view = raster_view_of(view, w, s->scene, s->space);
+  s->frustum = raster_frustum_of(view, (int[4]){w.x0, w.y0, w.x1, w.y1});
+  s->counts = (raster_counts){0};
   raster_shading shading = s->set.shading;
   if (!ready_target(s, shading, err) || !draw_shadows(r, err)) return false;
   if (draws_once(s, shading) ? !raster_once_frame(s, err)
                              : !raster_pass_frame(s, shading, false, err))
     return false;
+  r->counts = s->counts;
   r->times.compile += s->programs.seconds - compiled;
   return true;
 }
@@ -255,6 +273,44 @@ raster_frame raster_last_frame(const raster *r) {
   const gl_target *t = s->shown != NULL ? s->shown : &s->many;
   return (raster_frame){t->read, t->resolved, t->width, t->height,
                         s->programs.samples};
+}
+
+// Distinct textures, and the bytes of their pictures.
+static void count_maps(raster_counts *c, const raster_stock *s) {
+  size_t n = s->scene->material_count * RASTER_MAP_COUNT;
+  for (size_t i = 0; i < n; i++) {
+    size_t before = 0;
+    while (before < i && s->maps[before] != s->maps[i])
+      before++;
+    if (s->maps[i] == 0 || before < i) continue;
+    const texture *t = raster_map_of(&s->scene->materials[i / RASTER_MAP_COUNT],
+                                     (int)(i % RASTER_MAP_COUNT))
+                           ->image;
+    size_t texel = t->bytes != NULL ? 4 : 16;
+    c->map_bytes += texel * (size_t)t->width * (size_t)t->height;
+    c->maps++;
+  }
+}
+
+raster_counts raster_last_counts(const raster *r) {
+  const raster_stock *s = &r->stock;
+  raster_counts c = r->counts;
+  unsigned kinds = 0;
+  for (size_t i = 0; i < s->programs.count; i++) {
+    raster_variant v = s->programs.entries[i].variant;
+    if (v.stage == RASTER_STAGE_SURFACE) kinds |= 1u << v.kind;
+  }
+  for (; kinds != 0; kinds &= kinds - 1)
+    c.kinds++;
+  c.programs = s->programs.count;
+  c.bytes = s->mesh.bytes;
+  c.lamps = s->set.lights ? s->programs.lights : 0;
+  c.shadow_bytes = s->shadow.layers * sizeof(float) * (size_t)s->shadow.size *
+                   (size_t)s->shadow.size;
+  for (size_t i = 0; i < s->mesh.part_count; i++)
+    c.uploaded += (size_t)s->mesh.parts[i].count / 3;
+  count_maps(&c, s);
+  return c;
 }
 
 raster_times raster_last_times(const raster *r) {

@@ -69,5 +69,6 @@ typedef struct raster_frame {
 raster_frame raster_last_frame(const raster *r);
 
 raster_times raster_last_times(const raster *r);
+raster_counts raster_last_counts(const raster *r);
 
 #endif

@@ -11,7 +11,7 @@
 enum { ENV_ROW = 2048 };
 
 ibl_need raster_env_need(const scene *s, pbr_model model, bool any,
-                         arena *mem) {
+                         const bool *unseen, arena *mem) {
   float *list = ARENA_NEW(mem, float, s->material_count);
   ibl_need need = {.model = model,
                    .diffuse = true,
@@ -22,9 +22,9 @@ ibl_need raster_env_need(const scene *s, pbr_model model, bool any,
     const material *m = &s->materials[i];
     bool rough = m->kind == MATERIAL_METAL_ROUGH;
     bool phong = m->kind == MATERIAL_BLINN_PHONG && vec3_peak(m->ks) > 0;
-    if (!rough && !phong) continue;
+    if ((!rough && !phong) || (unseen != NULL && unseen[i])) continue;
     const texture_map *map = rough ? &m->map_pr : &m->map_ns;
-    if (map->image != NULL) need.all = true;
+    if (map->image != NULL || map->found != NULL) need.all = true;
     float r = raster_roughness(m->kind, m);
     bool known = false;
     for (int k = 0; k < need.count; k++)

@@ -22,10 +22,11 @@ typedef struct raster_env {
   int level_count;
 } raster_env;
 
-// What the materials of a scene ask for.  Roughness that comes from a texture,
-// or that may change later (any), wants the standard levels.  The list lies in
-// mem.
-ibl_need raster_env_need(const scene *s, pbr_model model, bool any, arena *mem);
+// What the materials of a scene ask for, those aside that are unseen (NULL:
+// none).  Roughness that comes from a texture, or that may change later (any),
+// wants the standard levels.  The list lies in mem.
+ibl_need raster_env_need(const scene *s, pbr_model model, bool any,
+                         const bool *unseen, arena *mem);
 
 // Upload; the irradiance must be there.  defines live in mem.
 raster_env raster_env_new(const gl *g, const ibl *made, arena *mem);

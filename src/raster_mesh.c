@@ -86,30 +86,21 @@ static bool vertices_of(vertex v[3], const mesh *m, size_t triangle,
   return true;
 }
 
-static uint32_t material_index(const scene *s, size_t triangle) {
-  return s->material_of == NULL ? 0 : s->material_of[triangle];
-}
-
 static bool lets_through(const scene *s, uint32_t of) {
   return s->material_count > 0 && s->materials[of].passes;
 }
 
-// Where the vertices of each material begin, for room for all triangles.
+// Room for the parts, and for the sheets.
 static void make_parts(raster_mesh *out, const scene *s, arena *mem) {
+  out->blocks = raster_blocks_of(s, mem);
+  out->of_block = ARENA_NEW(mem, raster_part, out->blocks.count);
   out->part_count = s->material_count > 0 ? s->material_count : 1;
   out->parts = ARENA_NEW(mem, raster_part, out->part_count);
+  out->block_end = ARENA_NEW(mem, size_t, out->part_count);
   size_t sheets = 0;
-  for (size_t t = 0; t < s->mesh.triangle_count; t++) {
-    uint32_t of = material_index(s, t);
-    out->parts[of].count += 3;
-    sheets += lets_through(s, of);
-  }
-  GLint first = 0;
-  for (size_t i = 0; i < out->part_count; i++) {
-    out->parts[i].first = first;
-    first += out->parts[i].count;
-    out->parts[i].count = 0;
-  }
+  for (size_t i = 0; i < out->blocks.count; i++)
+    if (lets_through(s, out->blocks.items[i].material))
+      sheets += out->blocks.items[i].count;
   out->sheets = ARENA_NEW(mem, raster_sheet, sheets);
   out->sheet_index = ARENA_NEW(mem, uint32_t, 3 * sheets);
 }
@@ -121,18 +112,38 @@ static void add_sheet(raster_mesh *out, const vertex v[3], uint32_t first,
       .middle = vec3_scale(sum, 1.0f / 3), .first = first, .material = of};
 }
 
-// Fill the parts, and note the sheets.
-static void fill_parts(raster_mesh *out, vertex *all, const scene *s) {
-  for (size_t t = 0; t < s->mesh.triangle_count; t++) {
-    uint32_t of = material_index(s, t);
-    raster_part *part = &out->parts[of];
-    size_t at = (size_t)part->first + (size_t)part->count;
-    if (!vertices_of(all + at, &s->mesh, t, out->origin)) continue;
+// Append the triangles of a block.
+static void fill_block(raster_mesh *out, raster_part *part, vertex *all,
+                       const scene *s, const raster_block *b, bool no_edges) {
+  for (size_t t = b->first; t < (size_t)b->first + b->count; t++) {
+    vertex *v = all + part->first + part->count;
+    if (no_edges && raster_is_edge(&s->mesh, t)) continue;
+    if (!vertices_of(v, &s->mesh, t, out->origin)) continue;
     for (size_t i = 0; i < 3; i++)
-      all[at + i].material = (float)of;
+      v[i].material = (float)b->material;
+    if (lets_through(s, b->material))
+      add_sheet(out, v, (uint32_t)(v - all), b->material);
     part->count += 3;
-    if (lets_through(s, of)) add_sheet(out, all + at, (uint32_t)at, of);
   }
+}
+
+// Fill the parts block by block; returns the vertices that there are.
+static size_t fill_parts(raster_mesh *out, vertex *all, const scene *s,
+                         bool no_edges) {
+  GLint at = 0;
+  size_t i = 0;
+  for (size_t of = 0; of < out->part_count; of++) {
+    out->parts[of].first = at;
+    for (; i < out->blocks.count && out->blocks.items[i].material == of; i++) {
+      raster_part *part = &out->of_block[i];
+      part->first = at;
+      fill_block(out, part, all, s, &out->blocks.items[i], no_edges);
+      at += part->count;
+    }
+    out->parts[of].count = at - out->parts[of].first;
+    out->block_end[of] = i;
+  }
+  return (size_t)at;
 }
 
 static void describe_vertices(const gl_api *f) {
@@ -147,26 +158,47 @@ static void describe_vertices(const gl_api *f) {
 }
 
 void raster_mesh_upload(raster_mesh *out, const gl *g, const scene *s,
-                        arena *mem) {
+                        bool no_edges, arena *mem) {
   const gl_api *f = gl_functions(g);
   *out = (raster_mesh){0};
   vec3 middle = vec3_scale(vec3_add(s->lo, s->hi), 0.5f);
   if (vec3_finite(middle)) out->origin = middle;
   make_parts(out, s, mem);
   arena scratch = {0};
-  size_t count = 3 * s->mesh.triangle_count;
-  vertex *all = ARENA_NEW(&scratch, vertex, count);
-  fill_parts(out, all, s);
+  vertex *all = ARENA_NEW(&scratch, vertex, 3 * s->mesh.triangle_count);
+  size_t count = fill_parts(out, all, s, no_edges);
   f->GenVertexArrays(1, &out->vertices);
   f->BindVertexArray(out->vertices);
   f->GenBuffers(1, &out->buffer);
   f->BindBuffer(GL_ARRAY_BUFFER, out->buffer);
   f->BufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof *all), all,
                 GL_STATIC_DRAW);
+  out->bytes = count * sizeof *all;
   describe_vertices(f);
   f->GenBuffers(1, &out->indices);
   f->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, out->indices);
   arena_free(&scratch);
+}
+
+const raster_part *raster_mesh_in(const raster_mesh *m, size_t of,
+                                  const raster_frustum *view, arena *mem,
+                                  size_t *count) {
+  size_t begin = of > 0 ? m->block_end[of - 1] : 0;
+  size_t end = m->block_end[of];
+  raster_part *out = ARENA_NEW(mem, raster_part, end - begin);
+  *count = 0;
+  for (size_t i = begin; i < end; i++) {
+    raster_part next = m->of_block[i];
+    if (next.count == 0) continue;
+    if (view != NULL && raster_block_outside(&m->blocks.items[i], view))
+      continue;
+    raster_part *last = *count > 0 ? &out[*count - 1] : NULL;
+    if (last != NULL && last->first + last->count == next.first)
+      last->count += next.count;
+    else
+      out[(*count)++] = next;
+  }
+  return out;
 }
 
 void raster_mesh_free(const gl *g, raster_mesh *m) {

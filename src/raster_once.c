@@ -16,13 +16,23 @@ typedef struct kind_list {
   int count;
 } kind_list;
 
+// Whether a material looks at a texture that there is, decoded or not.
+static bool has_maps(const raster_settings *set, const material *m) {
+  unsigned reads = material_reads(m, raster_kind(set, m));
+  for (int k = 0; k < RASTER_MAP_COUNT; k++) {
+    const texture_map *map = raster_map_of(m, k);
+    if ((reads >> k & 1) != 0 && (map->image != NULL || map->found != NULL))
+      return true;
+  }
+  return false;
+}
+
 bool raster_once_can(const raster_stock *r) {
   if (r->set.each || r->set.shading != RASTER_RADIANCE) return false;
   for (size_t i = 0; i < r->mesh.part_count; i++) {
     const material *m = &r->materials[i];
     if (r->mesh.parts[i].count == 0) continue;
-    if (m->passes) return false;
-    if (raster_variant_of(&r->set, m, RASTER_RADIANCE).maps != 0) return false;
+    if (m->passes || has_maps(&r->set, m)) return false;
   }
   return raster_seen_fits(r->g, r->scene->mesh.triangle_count);
 }
@@ -72,7 +82,7 @@ static kind_list fill_table(raster_stock *r) {
   size_t n = r->mesh.part_count;
   float *texels = ARENA_NEW(&scratch, float, n *row);
   for (size_t i = 0; i < n; i++) {
-    if (r->mesh.parts[i].count == 0 || r->hidden[i]) continue;
+    if (raster_pass_leaves(r, i)) continue;
     raster_variant v =
         raster_variant_of(&r->set, &r->materials[i], RASTER_RADIANCE);
     v.once = true;
@@ -98,12 +108,10 @@ static bool find_seen(raster_stock *r, error *err) {
   f->UseProgram(program);
   raster_set_view(r, program);
   f->BindVertexArray(r->mesh.vertices);
-  for (size_t i = 0; i < r->mesh.part_count; i++) {
-    const raster_part *part = &r->mesh.parts[i];
-    if (part->count == 0 || r->hidden[i]) continue;
-    f->Uniform1i(f->GetUniformLocation(program, "u_first"), part->first / 3);
-    f->DrawArrays(GL_TRIANGLES, part->first, part->count);
-  }
+  GLint number = f->GetUniformLocation(program, "u_first");
+  for (size_t i = 0; i < r->mesh.part_count; i++)
+    if (!raster_pass_leaves(r, i))
+      r->counts.drawn += raster_draw_part(r, i, raster_pass_view(r), number);
   return true;
 }
 
@@ -143,11 +151,11 @@ static bool find_kinds(raster_stock *r, int sample, error *err) {
 
 // Add the share of one sample of each pixel, and of those like it.
 static bool add_sample(raster_stock *r, const kind_list *list, int sample,
-                       error *err) {
+                       bool with_sky, error *err) {
   if (!find_kinds(r, sample, err)) return false;
   for (int i = 0; i < list->count; i++)
     if (!cover(r, list->of[i], i + 1, sample, err)) return false;
-  if (!r->set.sky || r->scene->env.kind == ENV_NONE) return true;
+  if (!with_sky) return true;
   raster_variant sky = {.stage = RASTER_STAGE_SKY, .once = true};
   return cover(r, sky, KIND_NOTHING, sample, err);
 }
@@ -156,7 +164,10 @@ bool raster_once_frame(raster_stock *r, error *err) {
   const gl_api *f = gl_functions(r->g);
   kind_list list = fill_table(r);
   raster_pass_begin(r);
-  if (!find_seen(r, err)) return false;
+  bool sky;
+  if (!find_seen(r, err) || !raster_pass_sky(r, &sky, err)) return false;
+  r->counts.skies += sky;
+  r->counts.once++;
   f->BindFramebuffer(GL_FRAMEBUFFER, r->once.draw);
   f->ClearColor(0, 0, 0, 0);
   f->Clear(GL_COLOR_BUFFER_BIT);
@@ -165,7 +176,7 @@ bool raster_once_frame(raster_stock *r, error *err) {
   f->BlendFunc(GL_ONE, GL_ONE);
   bool ok = true;
   for (int k = 0; k < r->seen.samples && ok; k++)
-    ok = add_sample(r, &list, k, err);
+    ok = add_sample(r, &list, k, sky, err);
   f->Disable(GL_BLEND);
   f->DepthMask(GL_TRUE);
   r->shown = &r->once;

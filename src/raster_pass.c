@@ -59,15 +59,23 @@ static bool is_sheet(const raster_stock *r, size_t which,
   return shading == RASTER_RADIANCE && r->materials[which].passes;
 }
 
+const raster_frustum *raster_pass_view(const raster_stock *r) {
+  return r->set.spared.outside ? &r->frustum : NULL;
+}
+
+bool raster_pass_leaves(const raster_stock *r, size_t which) {
+  const bool *unseen = r->set.spared.unseen;
+  return r->mesh.parts[which].count == 0 || r->hidden[which] ||
+         (unseen != NULL && unseen[which]);
+}
+
 static bool draw_solids(raster_stock *r, raster_shading shading, bool as_mean,
                         error *err) {
-  const gl_api *f = gl_functions(r->g);
-  f->BindVertexArray(r->mesh.vertices);
+  gl_functions(r->g)->BindVertexArray(r->mesh.vertices);
   for (size_t i = 0; i < r->mesh.part_count; i++) {
-    const raster_part *part = &r->mesh.parts[i];
-    if (part->count == 0 || r->hidden[i] || is_sheet(r, i, shading)) continue;
+    if (raster_pass_leaves(r, i) || is_sheet(r, i, shading)) continue;
     if (!use_material(r, i, shading, as_mean, err)) return false;
-    f->DrawArrays(GL_TRIANGLES, part->first, part->count);
+    r->counts.drawn += raster_draw_part(r, i, raster_pass_view(r), -1);
   }
   return true;
 }
@@ -87,8 +95,9 @@ static bool draw_sheets(raster_stock *r, error *err) {
     uint32_t of = m->sheets[i].material;
     for (end = i; end < m->sheet_count && m->sheets[end].material == of;)
       end++;
-    if (r->hidden[of]) continue;
+    if (raster_pass_leaves(r, of)) continue;
     ok = use_material(r, of, RASTER_RADIANCE, false, err);
+    r->counts.drawn += end - i;
     if (ok)
       f->DrawElements(GL_TRIANGLES, (GLsizei)(3 * (end - i)), GL_UNSIGNED_INT,
                       (const void *)(uintptr_t)(3 * i * sizeof(uint32_t)));
@@ -108,13 +117,45 @@ static bool draw_sky(raster_stock *r, error *err) {
   raster_set_env(r, program);
   f->BindVertexArray(r->no_vertices);
   f->DrawArrays(GL_TRIANGLES, 0, 3);
+  r->counts.skies++;
   return true;
+}
+
+// Whether some sample of the framebuffer in force lies open to the sky: a
+// triangle behind all surfaces that leaves nothing behind is counted.
+static bool find_open(raster_stock *r, bool *open, error *err) {
+  const gl_api *f = gl_functions(r->g);
+  GLuint program, query, passed;
+  raster_variant v = {.stage = RASTER_STAGE_VEIL};
+  if (!raster_program_get(&program, &r->programs, v, err)) return false;
+  f->UseProgram(program);
+  raster_set_view(r, program);
+  f->BindVertexArray(r->no_vertices);
+  f->ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  f->DepthMask(GL_FALSE);
+  f->GenQueries(1, &query);
+  f->BeginQuery(GL_ANY_SAMPLES_PASSED, query);
+  f->DrawArrays(GL_TRIANGLES, 0, 3);
+  f->EndQuery(GL_ANY_SAMPLES_PASSED);
+  f->GetQueryObjectuiv(query, GL_QUERY_RESULT, &passed);
+  f->DeleteQueries(1, &query);
+  f->DepthMask(GL_TRUE);
+  f->ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  *open = passed != 0;
+  return true;
+}
+
+bool raster_pass_sky(raster_stock *r, bool *wanted, error *err) {
+  *wanted = r->set.sky && r->scene->env.kind != ENV_NONE;
+  return !*wanted || !r->set.spared.covered || find_open(r, wanted, err);
 }
 
 // Solid parts into the layer whose view is in force.
 static bool draw_casters(raster_stock *r, const raster_matrix *clip,
                          error *err) {
   const gl_api *f = gl_functions(r->g);
+  raster_frustum sides = raster_frustum_of_matrix(clip->m, r->space.origin);
+  const raster_frustum *view = r->set.spared.outside ? &sides : NULL;
   for (size_t i = 0; i < r->mesh.part_count; i++) {
     const raster_part *part = &r->mesh.parts[i];
     if (part->count == 0 || r->hidden[i]) continue;
@@ -130,7 +171,7 @@ static bool draw_casters(raster_stock *r, const raster_matrix *clip,
     f->UniformMatrix4fv(f->GetUniformLocation(program, "u_clip"), 1, GL_FALSE,
                         clip->m);
     if (sheet) raster_set_material(r, program, i);
-    f->DrawArrays(GL_TRIANGLES, part->first, part->count);
+    r->counts.casters += raster_draw_part(r, i, view, -1);
   }
   return true;
 }
@@ -148,8 +189,10 @@ bool raster_pass_shadows(raster_stock *r, error *err) {
   raster_pass_begin(r);
   f->BindVertexArray(r->mesh.vertices);
   for (size_t layer = 0; layer < r->shadow.layers; layer++) {
+    size_t before = r->counts.casters;
     raster_shadow_begin(r->g, &r->shadow, layer, r->space.reversed);
     if (!draw_casters(r, &r->shadow.clip[layer], err)) return false;
+    r->counts.layers += r->counts.casters > before;
   }
   return true;
 }
@@ -166,9 +209,11 @@ bool raster_pass_frame(raster_stock *r, raster_shading shading, bool as_mean,
   f->Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   bool ok = draw_solids(r, shading, as_mean, err);
   if (ok && shading == RASTER_RADIANCE) {
-    if (r->set.sky && r->scene->env.kind != ENV_NONE) ok = draw_sky(r, err);
-    ok = ok && draw_sheets(r, err);
+    bool sky;
+    ok = raster_pass_sky(r, &sky, err) && (!sky || draw_sky(r, err)) &&
+         draw_sheets(r, err);
   }
+  r->counts.resolves += r->many.draw != r->many.read;
   gl_target_resolve(r->g, &r->many);
   r->shown = &r->many;
   return ok;

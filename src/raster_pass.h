@@ -12,6 +12,16 @@ vec3 raster_irradiance(const env *e, vec3 n);
 // Depth as it is compared here: nearer or as near passes, and is written.
 void raster_pass_begin(const raster_stock *r);
 
+// What the camera of the frame sees, for raster_draw_part; NULL where nothing
+// is left out.
+const raster_frustum *raster_pass_view(const raster_stock *r);
+
+// Whether a material has no part in the frame.
+bool raster_pass_leaves(const raster_stock *r, size_t which);
+
+// Whether the sky is to be drawn behind what the framebuffer in force holds.
+bool raster_pass_sky(raster_stock *r, bool *wanted, error *err);
+
 // Fill the shadow maps.
 bool raster_pass_shadows(raster_stock *r, error *err);
 

@@ -56,6 +56,7 @@ raster_variant raster_variant_of(const raster_settings *set, const material *m,
                       .shading = shading};
   for (int k = 0; k < RASTER_MAP_COUNT; k++)
     if (raster_map_of(m, k)->image != NULL) v.maps |= 1u << k;
+  v.maps &= material_reads(m, v.kind);
   if (shading != RASTER_RADIANCE) return v;
   v.gloss = gloss_of(set, v.kind, m);
   v.clear = v.kind == MATERIAL_METAL_ROUGH && vec3_peak(m->tf) > 0;
@@ -191,6 +192,10 @@ static glsl_spec parts_of(const raster_programs *p, raster_variant v) {
   case RASTER_STAGE_SEEN:
     spec.vertex[0] = "shadow.vert";
     spec.fragment[0] = "seen.frag";
+    break;
+  case RASTER_STAGE_VEIL:
+    spec.vertex[0] = "sky.vert";
+    spec.fragment[0] = "shadow.frag";
     break;
   case RASTER_STAGE_KIND:
     spec.vertex[0] = "cover.vert";

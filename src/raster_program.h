@@ -15,7 +15,8 @@ typedef enum raster_stage {
   RASTER_STAGE_SHADOW,        // solid: depth alone
   RASTER_STAGE_SHADOW_SHEET,  // where its opacity is at least a half
   RASTER_STAGE_SEEN,          // the number of each triangle
-  RASTER_STAGE_KIND           // which program a pixel wants, as depth
+  RASTER_STAGE_KIND,          // which program a pixel wants, as depth
+  RASTER_STAGE_VEIL           // nothing, where the sky would be
 } raster_stage;
 
 // What is known of a surface's gloss when its program is made: nothing, that

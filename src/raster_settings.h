@@ -39,6 +39,15 @@ enum { RASTER_AMBIENT_UNIT = 11, RASTER_METAL_ROUGH_UNIT = 14 };
 // The most point and directional lights.
 enum { RASTER_MAX_LIGHTS = 32 };
 
+// What nobody would see, and what therefore is left out; zero leaves out
+// nothing.  Chapter 13 finds it out.
+typedef struct raster_spared {
+  bool outside;        // triangles outside of what a camera or a lamp sees
+  bool edges;          // triangles with two corners in one place
+  bool covered;        // the sky, if a test says that surfaces cover it
+  const bool *unseen;  // by material: none of it is in view; may be NULL
+} raster_spared;
+
 typedef struct raster_settings {
   int width, height;
   int x0, y0, x1, y1;  // crop, half-open; all of the film when x1 is 0
@@ -58,6 +67,21 @@ typedef struct raster_settings {
   //   vec3 matter_ambient(matter m, vec3 n, vec3 wo)
   raster_piece metal_rough;
   int shadow_size;  // texels a side of a shadow map; 0: chosen
+  raster_spared spared;
+  bool thorough;  // make programs for every kind of surface
 } raster_settings;
+
+// What was done, in numbers: of raster_new and the last raster_draw.
+typedef struct raster_counts {
+  size_t kinds, programs;  // of surface, among all programs
+  size_t maps, map_bytes;  // textures of materials, without their mipmaps
+  size_t uploaded, bytes;  // triangles, and bytes of their vertices
+  size_t once;             // frames in which visibility came first
+  size_t lamps;            // that programs know of
+  size_t drawn;            // triangles, for the eye
+  size_t layers, casters;  // shadow maps drawn into; triangles in all of them
+  size_t shadow_bytes;
+  size_t skies, resolves;  // passes
+} raster_counts;
 
 #endif

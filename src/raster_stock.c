@@ -107,6 +107,21 @@ void raster_set_material(const raster_stock *r, GLuint program, size_t which) {
   set_maps(r, program, which);
 }
 
+size_t raster_draw_part(const raster_stock *r, size_t of,
+                        const raster_frustum *view, GLint number) {
+  const gl_api *f = gl_functions(r->g);
+  arena once = {0};
+  size_t calls, vertices = 0;
+  const raster_part *part = raster_mesh_in(&r->mesh, of, view, &once, &calls);
+  for (size_t i = 0; i < calls; i++) {
+    if (number >= 0) f->Uniform1i(number, part[i].first / 3);
+    f->DrawArrays(GL_TRIANGLES, part[i].first, part[i].count);
+    vertices += (size_t)part[i].count;
+  }
+  arena_free(&once);
+  return vertices / 3;
+}
+
 static void bind_piece(const raster_stock *r, GLuint program,
                        const raster_piece *piece, int unit) {
   if (piece->bind != NULL) piece->bind(piece->context, r->g, program, unit);

@@ -40,7 +40,15 @@ typedef struct raster_stock {
   const gl_target *shown;  // the one of the last frame
   raster_seen seen;        // no framebuffer before it is used
   raster_view view;        // of the last frame
+  raster_frustum frustum;  // of the same
+  raster_counts counts;
 } raster_stock;
+
+// Draw those vertices of a material that may lie in view, NULL: all; says how
+// many triangles that are.  With number >= 0 that uniform of the program gets
+// the first of each call.
+size_t raster_draw_part(const raster_stock *r, size_t of,
+                        const raster_frustum *view, GLint number);
 
 // Set uniforms of a program in use, and bind its textures.
 void raster_set_view(const raster_stock *r, GLuint program);

@@ -48,6 +48,10 @@ void render_sums_counts(render_result *out, const render_sums *s,
   const tally *t = &s->tally;
   out->rays = t->paths.rays;
   out->cut = t->paths.cut;
+  out->paths = t->paths;
+  out->squares = s->color.square != NULL;
+  out->film_bytes = film_bytes(&s->color) + film_bytes(&s->normal) +
+                    film_bytes(&s->depth) + film_bytes(&s->albedo);
   out->samples = t->samples;
   out->non_finite = t->non_finite;
   out->bad_x = (int)(t->bad_pixel % (uint64_t)film_width);

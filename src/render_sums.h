@@ -30,6 +30,9 @@ typedef struct render_result {
   double error;  // estimated relative error, 0: not estimated
   uint64_t rays, samples;
   uint64_t cut;                  // paths ended by path_naive's limit
+  path_stats paths;              // those and what else paths did
+  size_t film_bytes;             // of all sums
+  bool squares;                  // of the colour, for its variance
   uint64_t non_finite;           // samples dropped
   int bad_x, bad_y, bad_sample;  // the first of them, in the full film
   bool stopped;                  // before spp, by *stop

@@ -5,6 +5,7 @@
 #include "material_list.h"
 #include "mesh_join.h"
 #include "path_find.h"
+#include "picture_head.h"
 
 #include <string.h>
 #include <sys/stat.h>
@@ -133,10 +134,8 @@ static bool load_meshes(scene_loader *l) {
   if (!material_list_decide(&list, &s->mesh, written, &s->file,
                             !o->no_name_rules, l->mem, l->err))
     return false;
-  double start = load_clock();
   s->textures = (texture_store){.mem = l->mem, .root = l->root};
-  material_list_textures(&list, &s->textures, o->skip_textures, l->r);
-  s->seconds_textures += load_clock() - start;
+  material_list_find(&list, &s->textures, l->r);
   s->materials = list.materials;
   s->material_count = list.count;
   s->material_of = list.of_triangle;
@@ -168,10 +167,8 @@ static bool load_env(scene_loader *l) {
       return fail(l->err, "%s: %s", where.place,
                   path_missing(&found, "environment", l->mem));
     e->path = found.path;
-    double start = load_clock();
-    if (!o->skip_textures && !env_load(out, e->path, l->mem, l->r, l->err))
-      return false;
-    l->out->seconds_textures += load_clock() - start;
+    picture_head head;
+    if (!picture_head_read(&head, e->path, l->err)) return false;
   }
   out->rotate = e->rotate_deg / 360;
   out->scale = e->scale;
@@ -198,8 +195,25 @@ bool scene_load(scene *out, const char *path, const scene_options *options,
   s.film_width = s.file.film_width;
   s.film_height = s.file.film_height;
   s.exposure = s.file.exposure;
-  s.seconds_load = load_clock() - start - s.seconds_textures;
+  s.seconds_load = load_clock() - start;
+  if (!l.options->skip_textures && !scene_decode(&s, NULL, true, mem, r, err))
+    return false;
   *out = s;
+  return true;
+}
+
+bool scene_decode(scene *s, const unsigned *wanted, bool environment,
+                  arena *mem, report *r, error *err) {
+  double start = load_clock();
+  material_list list = {s->materials, s->material_count, s->material_of};
+  material_list_decode(&list, &s->textures, wanted, r);
+  double middle = load_clock();
+  env e = s->env;
+  bool map = environment && e.kind == ENV_MAP;
+  if (map && !env_load(&e, s->file.env.path, mem, r, err)) return false;
+  s->env.map = e.map;
+  s->seconds_env += load_clock() - middle;
+  s->seconds_textures += load_clock() - start;
   return true;
 }
 

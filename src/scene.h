@@ -16,7 +16,7 @@ typedef struct scene_options {
   float crease_deg;  // 0: 180
   bool no_name_rules;
   bool up_z;                                // the OBJ's up is +Z
-  bool skip_textures;                       // for info: check, do not decode
+  bool skip_textures;                       // check, do not decode
   bool allow_outside;                       // names may leave the folder
   const char *env;                          // FILE, R,G,B, sky or none
   const float *env_rotate_deg, *env_scale;  // NULL: not given
@@ -38,7 +38,9 @@ typedef struct scene {
   float exposure;               // stops
   vec3 lo, hi;  // bounds of the triangles; lo > hi when there are none
   texture_store textures;
-  double seconds_load, seconds_textures;
+  double seconds_load;      // without the pictures
+  double seconds_textures;  // to decode all pictures,
+  double seconds_env;       // and of that the environment's
   obj_times times;
 } scene;
 
@@ -51,6 +53,13 @@ typedef struct scene {
 // counts as missing.
 bool scene_load(scene *out, const char *path, const scene_options *options,
                 arena *mem, pool *threads, report *r, error *err);
+
+// Decode what a load with skip_textures has only checked: of the textures of
+// material i those whose bits are set in wanted[i] (see material_reads), or all
+// where wanted is NULL, and the map of the environment.  A damaged texture is a
+// warning, a damaged environment an error.
+bool scene_decode(scene *s, const unsigned *wanted, bool environment,
+                  arena *mem, report *r, error *err);
 
 // The camera of that name, or the first when name is NULL; NULL when none.
 const camera *scene_camera(const scene *s, const char *name);

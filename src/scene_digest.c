@@ -27,8 +27,6 @@ static uint64_t digest_geometry(const scene *s) {
   return ADD(d, s->material_of, m->triangle_count);
 }
 
-enum { MATERIAL_MAPS = 9 };
-
 // The textures of a material.
 static void maps_of(const material *m, const texture_map *out[MATERIAL_MAPS]) {
   const texture_map *all[MATERIAL_MAPS] = {

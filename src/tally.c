@@ -13,6 +13,10 @@ void tally_drop(tally *t, uint64_t sample, uint64_t pixel) {
 void tally_add(tally *t, const tally *other) {
   t->paths.rays += other->paths.rays;
   t->paths.cut += other->paths.cut;
+  t->paths.followed += other->paths.followed;
+  t->paths.asked += other->paths.asked;
+  t->paths.shadows += other->paths.shadows;
+  t->paths.through += other->paths.through;
   t->samples += other->samples;
   if (other->non_finite == 0) return;
   tally_drop(t, other->bad_sample, other->bad_pixel);

@@ -4,6 +4,7 @@
 
 #include "num.h"
 #include "path_find.h"
+#include "picture_head.h"
 
 #include <string.h>
 
@@ -62,32 +63,76 @@ static texture *store_entry(texture_store *s, const char *name, bool *known) {
   return s->textures[s->count++] = ARENA_NEW(s->mem, texture, 1);
 }
 
+// Note what is wrong with a file.
+static void set_problem(texture_store *s, texture *t, const char *why) {
+  t->problem = arena_format(s->mem, "%s", why);
+  s->failed++;
+}
+
 bool texture_refuse(texture_store *s, const char *path, const char *why) {
   bool known;
   texture *t = store_entry(s, path, &known);
   if (known) return false;
-  *t = (texture){.path = arena_format(s->mem, "%s", path),
-                 .problem = arena_format(s->mem, "%s", why)};
+  t->path = arena_format(s->mem, "%s", path);
+  set_problem(s, t, why);
   return true;
+}
+
+static bool is_decoded(const texture *t) {
+  return t->bytes != NULL || t->floats != NULL;
+}
+
+// The entry of a file, by whatever path.
+static texture *entry_of(texture_store *s, const char *path) {
+  bool known;
+  texture *t = store_entry(s, path_real(s->mem, path), &known);
+  if (!known) t->path = arena_format(s->mem, "%s", path);
+  return t;
 }
 
 const texture *texture_get(texture_store *s, const char *path, report *r,
                            error *err) {
-  bool known;
-  texture *t = store_entry(s, path_real(s->mem, path), &known);
-  if (!known) {
-    if (s->decode == NULL) s->decode = decode_table(s->mem);
-    const char *own = arena_format(s->mem, "%s", path);
-    picture p;
-    if (picture_read(&p, path, s->mem, r, err))
-      *t = texture_of(s, own, &p);
-    else
-      *t = (texture){.path = own,
-                     .problem = arena_format(s->mem, "%s", err->text)};
+  texture *t = entry_of(s, path);
+  if (is_decoded(t)) return t;
+  if (s->decode == NULL) s->decode = decode_table(s->mem);
+  picture p;
+  if (t->problem != NULL) {
+    fail(err, "%s", t->problem);
+    return NULL;
   }
-  if (t->problem == NULL) return t;
-  fail(err, "%s", t->problem);
-  return NULL;
+  if (!picture_read(&p, path, s->mem, r, err)) {
+    set_problem(s, t, err->text);
+    return NULL;
+  }
+  *t = texture_of(s, t->path, &p);
+  return t;
+}
+
+const char *texture_check(texture_store *s, const char *path, error *err) {
+  texture *t = entry_of(s, path);
+  picture_head head;
+  if (t->problem == NULL && t->width > 0) return t->path;
+  if (t->problem != NULL)
+    fail(err, "%s", t->problem);
+  else if (!picture_head_read(&head, path, err))
+    set_problem(s, t, err->text);
+  else
+    t->width = head.width, t->height = head.height;
+  return t->problem == NULL ? t->path : NULL;
+}
+
+size_t texture_decoded(const texture_store *s, size_t *bytes) {
+  size_t n = 0;
+  *bytes = 0;
+  for (size_t i = 0; i < s->count; i++) {
+    const texture *t = s->textures[i];
+    if (!is_decoded(t)) continue;
+    size_t sample = t->bytes != NULL ? 1 : sizeof(float);
+    *bytes +=
+        sample * (size_t)t->width * (size_t)t->height * (size_t)t->channels;
+    n++;
+  }
+  return n;
 }
 
 // Channel c of the texel, as light when `color` asks for it.

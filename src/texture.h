@@ -7,16 +7,16 @@
 #include "mtl.h"
 #include "picture.h"
 
-// A decoded file: 8-bit samples as stored, or floats for HDR and PFM and
-// 16-bit ones.
+// A file, decoded when it is first used: 8-bit samples as stored, or floats for
+// HDR and PFM and 16-bit ones.
 typedef struct texture {
   const char *path;
   int width, height, channels;
   const uint8_t *bytes;  // NULL when floats are used
-  const float *floats;
-  bool is_linear;       // HDR and PFM: never to be decoded
-  const float *decode;  // linear light by 8-bit sRGB code, shared by all
-  const char *problem;  // why it could not be read, else NULL
+  const float *floats;   // both NULL: not decoded
+  bool is_linear;        // HDR and PFM: never to be decoded
+  const float *decode;   // linear light by 8-bit sRGB code, shared by all
+  const char *problem;   // why it could not be read, else NULL
 } texture;
 
 // Files by their real paths, each decoded once whatever it is called.  Start
@@ -27,6 +27,7 @@ typedef struct texture_store {
   name_table names;  // name number = texture number
   const char *root;  // of path_root, for who looks for files; may be NULL
   int misses;        // of a path_search
+  size_t failed;     // that have a problem
   arena *mem;
   float *decode;
 } texture_store;
@@ -39,11 +40,19 @@ const texture *texture_get(texture_store *s, const char *path, report *r,
 // Remember that path is not to be read, and why; false when that is known.
 bool texture_refuse(texture_store *s, const char *path, const char *why);
 
+// The path by which the store knows a file, NULL when it is not there or has
+// not the head of a picture.  It is not decoded.
+const char *texture_check(texture_store *s, const char *path, error *err);
+
+// How many are decoded, and their bytes.
+size_t texture_decoded(const texture_store *s, size_t *bytes);
+
 // A texture as a material uses it.
 typedef struct texture_map {
   const texture *image;  // NULL: no texture
   mtl_map options;
-  bool is_color;  // samples are sRGB, to be decoded
+  bool is_color;      // samples are sRGB, to be decoded
+  const char *found;  // the file, where it is there and has a head; else NULL
 } texture_map;
 
 // Bilinear lookup at uv, (0, 0) the lower left corner of the picture, repeated

@@ -88,6 +88,7 @@ float light_ray_through(const light_ray *l, const path_world *w,
   ray r = light_ray_shadow(l, from, true);
   float share = 1;
   hit h;
+  stats->through++;
   for (int i = 0; i < SHADOW_MAX_SHEETS; i++) {
     stats->rays++;
     if (!w->tracer.closest(w->tracer.tree, &r, &h)) break;

@@ -434,7 +434,8 @@ static void textures_are_the_same(void **state) {
     w->materials[0].map_kd = (texture_map){
         &t,
         {.scale = {1.5f, 1.2f, 1}, .offset = {0.2f, -0.1f, 0}, .clamp = clamp},
-        true};
+        true,
+        NULL};
     vec2 uv[4] = {{-4, -4}, {5, -4}, {5, 5}, {-4, 5}};
     mesh *m = &w->scene.mesh;
     m->texcoords = uv;

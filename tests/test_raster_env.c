@@ -144,7 +144,7 @@ static void white_light_shows_the_table(void **state) {
   dfg table;
   dfg_build(&table, PBR_GGX, &mem, NULL);
   raster_rough rough = raster_rough_new(g, &table, &mem);
-  ibl_need need = raster_env_need(&w->scene, PBR_GGX, false, &mem);
+  ibl_need need = raster_env_need(&w->scene, PBR_GGX, false, NULL, &mem);
   need.use_cache = false;
   ibl b;
   ibl_make(&b, &w->scene.env, &need, &mem, NULL);

@@ -63,7 +63,7 @@ static const texture *tga(desk *d, const char *name, int w, int h, int channels,
 }
 
 static texture_map map_of(const texture *t, bool is_color) {
-  return (texture_map){t, {.scale = {1, 1, 1}, .bump = 1}, is_color};
+  return (texture_map){t, {.scale = {1, 1, 1}, .bump = 1}, is_color, NULL};
 }
 
 static void assert_close(float got, float want) {
