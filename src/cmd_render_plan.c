@@ -41,7 +41,8 @@ void render_plan_note_paths(render_job *j) {
   p->line[PLAN_SHADOW_RAY].all = r->paths.asked;
   plan_note(p, PLAN_ALPHA, r->paths.through, -1, 0);
   p->line[PLAN_ALPHA].all = r->paths.shadows;
-  plan_note(p, PLAN_SEGMENTS, (uint64_t)j->world.max_depth, -1, 0);
+  plan_note(p, PLAN_SEGMENTS,
+            (uint64_t)(j->world.max_depth - j->world.lamps_only), -1, 0);
   plan_note(p, PLAN_SQUARES, r->squares, -1, 0);
   plan_note(p, PLAN_ESTIMATE, j->settings.guide != NULL, -1, 0);
   cmd_forced_tables(p, &j->shot);

@@ -83,7 +83,7 @@ static bool parse_head(part *p, size_t *key, const uint8_t *at) {
               .films = w[10],
               .aovs = w[11],
               .radiance = w[12] == 1,
-              .tally = {{n[0], n[1]}, n[2], n[3], n[4], n[5]}};
+              .tally = {{.rays = n[0], .cut = n[1]}, n[2], n[3], n[4], n[5]}};
   *key = w[13];
   shard s = part_shard(p);
   p->tile_count = shard_tiles(&s);

@@ -179,6 +179,8 @@ static bool bounce(wave *w, stop *s, ray *r) {
   matter m = vertex_matter(s->at, w->by->world->dfg, s->u[USE_MATTER]);
   p->throughput = vec3_mul(p->throughput, m.weight);
   if (w->lights && !bsdf_is_delta(&m.bsdf)) ask_light(w, s, &m.bsdf);
+  const path_world *world = w->by->world;
+  if (world->lamps_only && p->segment + 1 == world->max_depth) return false;
   if (!scatter(p, s, &m.bsdf, r) || !survives(p, s->u[USE_LIFE])) return false;
   p->segment++;
   return true;

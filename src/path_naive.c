@@ -81,10 +81,11 @@ static bool survives(walk *k, int segment) {
 }
 
 // One bounce at the hit; false where the path ends.
-static bool bounce(walk *k, vertex *v) {
+static bool bounce(walk *k, vertex *v, int segment) {
   matter m = vertex_matter(v, k->world->dfg, rng_next(k->random));
   k->throughput = vec3_mul(k->throughput, m.weight);
   if (k->world->lights && !bsdf_is_delta(&m.bsdf)) add_lights(k, v, &m.bsdf);
+  if (k->world->lamps_only && segment + 1 == k->world->max_depth) return false;
   return scatter(k, v, &m.bsdf);
 }
 
@@ -113,7 +114,7 @@ vec3 path_naive_radiance(const path_world *w, ray r, rng *random,
       k.sum = vec3_add(k.sum, vec3_mul(k.throughput, glow));
     }
     if (w->max_depth > 0 && segment >= w->max_depth) return k.sum;
-    if (!bounce(&k, &v) || !survives(&k, segment)) return k.sum;
+    if (!bounce(&k, &v, segment) || !survives(&k, segment)) return k.sum;
     segment++;
   }
   stats->cut++;

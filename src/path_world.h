@@ -12,7 +12,8 @@ typedef struct path_world {
   bool lights;     // point and directional lights on
   int max_depth;   // segments: 1 emission seen, 2 direct light; 0 roulette only
   const dfg *dfg;  // matter_table of the scene
-  bool thorough;   // also do what adds nothing (chapter 13)
+  bool lamps_only;  // nothing else shines: no last segment finds light
+  bool thorough;    // also do what adds nothing (chapter 13)
 } path_world;
 
 // What paths did.

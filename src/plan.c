@@ -324,14 +324,13 @@ static void plan_walks(plan *p) {
        !shown ? "the picture shows no light"
        : dark ? "nothing gives light"
               : "every sample");
-  p->max_depth = r->max_depth;
-  bool last = !found && r->max_depth > 1 && !r->no_skip;
-  if (last) p->max_depth--;
-  tell_as_is(p, PLAN_SEGMENTS, (uint64_t)p->max_depth, (uint64_t)r->max_depth,
-             r->max_depth == 0 ? "paths end by roulette"
-             : last            ? "the last one would find no light"
-             : r->no_skip      ? "--no-skip"
-                               : "the last one may find light");
+  p->lamps_only = !found && r->max_depth > 1 && !r->no_skip;
+  uint64_t most = (uint64_t)r->max_depth;
+  tell_as_is(p, PLAN_SEGMENTS, most - p->lamps_only, most,
+             most == 0       ? "paths end by roulette"
+             : p->lamps_only ? "the last one would find no light"
+             : r->no_skip    ? "--no-skip"
+                             : "the last one may find light");
 }
 
 static uint64_t bits_of(unsigned word) {

@@ -86,8 +86,8 @@ typedef struct plan {
   plan_sight sight;  // of the raster engine
   light *lamps;      // those that shine
   size_t lamp_count;
-  bool black;     // the environment gives no light
-  int max_depth;  // enough segments, as path_world has it
+  bool black;       // the environment gives no light
+  bool lamps_only;  // as path_world has it
 } plan;
 
 // Derive it, in mem.

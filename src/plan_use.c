@@ -24,7 +24,8 @@ void plan_settle(const plan *p, raster_settings *set) {
 
 void plan_settle_paths(const plan *p, path_world *world) {
   world->lights = p->lamp_count > 0;
-  world->max_depth = p->max_depth;
+  world->max_depth = p->of.max_depth;
+  world->lamps_only = p->lamps_only;
   world->thorough = p->of.no_skip;
 }
 

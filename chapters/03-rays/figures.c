@@ -312,7 +312,7 @@ static void draw_texture(output *o) {
                .channels = 3,
                .bytes = texels,
                .decode = decode};
-  texture_map m = {&t, {.scale = {1, 1, 1}}, true};
+  texture_map m = {&t, {.scale = {1, 1, 1}}, true, NULL};
   image im = sheet(o, 3, SIDE, SIDE);
   for (int pane = 0; pane < 3; pane++)
     for (int i = 0; i < SIDE * SIDE; i++) {
