@@ -108,6 +108,17 @@ def mesh_of(name, points, normals, faces, material):
     return mesh
 
 
+def sky_of(path):
+    """The same function of directions for Mitsuba, whose first and last rows
+    are the poles: with two rows for one both interpolate between equal values."""
+    rows = np.array(mi.Bitmap(str(path)).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False))
+    h = len(rows)
+    at = np.clip(np.arange(2 * h + 1) / 2 - 0.5, 0, h - 1)
+    low = np.minimum(at.astype(int), h - 2)
+    part = (at - low)[:, None, None].astype(np.float32)
+    return mi.Bitmap((1 - part) * rows[low] + part * rows[low + 1])
+
+
 def load_scene(path):
     """The scene for Mitsuba, and its size."""
     said = {}
@@ -134,7 +145,7 @@ def load_scene(path):
         scene["env"] = {"type": "constant", "radiance": rgb([float(w) for w in env[1:4]])}
     elif env[0] != "none":
         turn = mi.ScalarTransform4f().rotate([0, 1, 0], 180)
-        scene["env"] = {"type": "envmap", "filename": str(folder / env[0]), "to_world": turn}
+        scene["env"] = {"type": "envmap", "bitmap": sky_of(folder / env[0]), "to_world": turn}
     for i, (name, list_of) in enumerate(faces.items()):
         scene["mesh_%d" % i] = mesh_of(name, points, normals, list_of, materials[name])
     return mi.load_dict(scene), width, height
