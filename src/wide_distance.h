@@ -4,7 +4,7 @@
 #ifndef WIDE_DISTANCE_H
 #define WIDE_DISTANCE_H
 
-#include "wide_edges.h"
+#include "wide_tests.h"
 
 // The largest magnitude of three.
 SIMD f8 f8_peak(const f8 v[3]) {
@@ -38,17 +38,20 @@ SIMD uint32_t leaf_firm(const leaf_shear *c, f8 det) {
   return f8_lt(f8_mul(f8_mul(mx, my), range), f8_mul(mz, f8_abs(det)));
 }
 
-// Where the lines of the ray enter and leave the boxes of the triangles
+// Where the lines of the rays enter and leave the boxes of the triangles
 // themselves, one axis, and the longest side so far: slab_hold of slab.c.
-SIMD void leaf_slab(f8 *near, f8 *far, f8 *side, const uint32_t *leaf, size_t n,
-                    uint32_t axis, const wide_walk *w) {
-  f8 a = leaf_load(leaf, n, 0, axis), b = leaf_load(leaf, n, 1, axis);
-  f8 c = leaf_load(leaf, n, 2, axis), inv = f8_all(w->inv[axis]);
+SIMD void leaf_slab(f8 *near, f8 *far, f8 *side, const leaf_tests *of,
+                    uint32_t axis) {
+  f8 a = tests_corner(of, 0, axis), b = tests_corner(of, 1, axis);
+  f8 c = tests_corner(of, 2, axis);
+  f8 inv = TESTS_RAYS(of, axis[axis].inv, inv[axis]);
   f8 lo = f8_min(f8_min(a, b), c), hi = f8_max(f8_max(a, b), c);
-  bool back = w->side[axis] != 0;
+  bool back = (of->p ? of->p->side[axis] : of->w->side[axis]) != 0;
   f8 in = back ? hi : lo, out = back ? lo : hi;
-  in = f8_mul(f8_sub(in, f8_all(w->enter[axis])), inv);
-  out = f8_mul(f8_sub(out, f8_all(w->leave[axis])), inv);
+  f8 enter = TESTS_RAYS(of, axis[axis].enter, enter[axis]);
+  f8 leave = TESTS_RAYS(of, axis[axis].leave, leave[axis]);
+  in = f8_mul(f8_sub(in, enter), inv);
+  out = f8_mul(f8_sub(out, leave), inv);
   *near = f8_max(in, *near);
   *far = f8_min(out, *far);
   *side = f8_max(f8_sub(hi, lo), *side);
@@ -56,11 +59,11 @@ SIMD void leaf_slab(f8 *near, f8 *far, f8 *side, const uint32_t *leaf, size_t n,
 
 // What is left of the candidates m: t of triangle_hit and slab_hold for those
 // that single precision decides, the others in *unsure.
-SIMD uint32_t leaf_distances(leaf_shear *c, const wide_walk *w,
-                             const uint32_t *leaf, size_t n, uint32_t m,
+SIMD uint32_t leaf_distances(leaf_shear *c, const leaf_tests *of, uint32_t m,
                              float out_t[8], float out_det[8],
                              uint32_t *unsure) {
-  f8 zero = f8_all(0), sz = f8_all(w->shear.sz), infinite = f8_all(INFINITY);
+  f8 zero = f8_all(0), infinite = f8_all(INFINITY);
+  f8 sz = TESTS_RAYS(of, sz, shear.sz);
   f8 det = f8_add(f8_add(c->e[0], c->e[1]), c->e[2]), size = f8_abs(det);
   c->z[0] = f8_mul(sz, c->z[0]);
   c->z[1] = f8_mul(sz, c->z[1]);
@@ -71,15 +74,16 @@ SIMD uint32_t leaf_distances(leaf_shear *c, const wide_walk *w,
   uint32_t sure = f8_lt(zero, small) & f8_lt(f8_all(FLT_MIN * 0x1p24f), size) &
                   f8_lt(size, infinite) & f8_lt(leaf_error(c, det), f8_abs(t));
   f8 near = f8_all(-INFINITY), far = infinite, side = zero;
-  leaf_slab(&near, &far, &side, leaf, n, 0, w);
-  leaf_slab(&near, &far, &side, leaf, n, 1, w);
-  leaf_slab(&near, &far, &side, leaf, n, 2, w);
-  f8 tmin = f8_all(w->r.tmin), tmax = f8_all(w->r.tmax);
-  f8 best = f8_all(w->best.t);
+  leaf_slab(&near, &far, &side, of, 0);
+  leaf_slab(&near, &far, &side, of, 1);
+  leaf_slab(&near, &far, &side, of, 2);
+  f8 tmin = TESTS_RAYS(of, tmin, r.tmin), tmax = TESTS_RAYS(of, tmax, r.tmax);
+  f8 best = TESTS_RAYS(of, until, best.t);
   uint32_t in = f8_lt(zero, t) & f8_le(tmin, t) & f8_le(t, tmax) &
                 f8_lt(t, infinite) & f8_le(near, far) & f8_le(near, best);
   // Held to a point, t stays in the span of the triangle's box.
-  uint32_t held = f8_le(side, f8_all(w->large)) | leaf_firm(c, det);
+  float large = of->p ? of->p->large : of->w->large;
+  uint32_t held = f8_le(side, f8_all(large)) | leaf_firm(c, det);
   *unsure = m & (~sure | (in & ~held));
   t = f8_min(far, f8_max(near, t));
   f8_store(out_t, t);

@@ -44,9 +44,7 @@ static void kernel_closest_many(const void *tree, const ray *rays, hit *hits,
   s.rays = rays;
   s.hits = hits;
   s.blocked = NULL;
-  s.count = n;
-  s.taken = 0;
-  stream_trace(&s, false);
+  stream_run(&s, n, false);
 }
 
 static void kernel_any_many(const void *tree, const ray *rays, bool *blocked,
@@ -61,9 +59,7 @@ static void kernel_any_many(const void *tree, const ray *rays, bool *blocked,
   s.rays = rays;
   s.hits = NULL;
   s.blocked = blocked;
-  s.count = n;
-  s.taken = 0;
-  stream_trace(&s, true);
+  stream_run(&s, n, true);
 }
 
 // The entries of this level.

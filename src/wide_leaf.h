@@ -13,11 +13,11 @@ static vec3 corner_of(const uint32_t *leaf, uint32_t n, uint32_t i) {
   return p;
 }
 
-// h becomes the best hit when it is nearer, or as near and of a lower number.
-SIMD bool walk_keep(wide_walk *w, const hit *h) {
-  if (h->t > w->best.t || (h->t == w->best.t && h->triangle > w->best.triangle))
+// h becomes the best hit if it is nearer, or as near and of a lower number.
+SIMD bool hit_keep(hit *best, const hit *h) {
+  if (h->t > best->t || (h->t == best->t && h->triangle > best->triangle))
     return false;
-  w->best = *h;
+  *best = *h;
   return true;
 }
 
@@ -48,7 +48,8 @@ SIMD bool leaf_settle(wide_walk *w, leaf_shear *c, const uint32_t *leaf,
   float t[8], det[8], v[8], u[8];
   uint32_t unsure;
   bool found = false;
-  m = leaf_distances(c, w, leaf, n, m, t, det, &unsure);
+  const leaf_tests of = {.w = w, .leaf = leaf, .n = n};
+  m = leaf_distances(c, &of, m, t, det, &unsure);
   if (any && m != 0) return true;
   if (m != 0) {
     f8_store(u, c->e[1]);
@@ -57,13 +58,13 @@ SIMD bool leaf_settle(wide_walk *w, leaf_shear *c, const uint32_t *leaf,
   for (; m != 0; m &= m - 1) {
     uint32_t i = (uint32_t)__builtin_ctz(m);
     hit h = {t[i], u[i] / det[i], v[i] / det[i], leaf[9 * n + i]};
-    found |= walk_keep(w, &h);
+    found |= hit_keep(&w->best, &h);
   }
   for (; unsure != 0; unsure &= unsure - 1) {
     hit h;
     if (!leaf_one(w, leaf, n, (uint32_t)__builtin_ctz(unsure), &h)) continue;
     if (any) return true;
-    found |= walk_keep(w, &h);
+    found |= hit_keep(&w->best, &h);
   }
   return found;
 }
@@ -75,7 +76,8 @@ SIMD bool walk_leaf(wide_walk *w, const wide_tree *t, uint32_t child,
   uint32_t n = wide_leaf_count(child);
   const uint32_t *leaf = t->triangles + 10 * (size_t)wide_leaf_first(child);
   leaf_shear c;
-  uint32_t m = leaf_edges(&c, w, leaf, n);
+  leaf_rays r = walk_rays(w);
+  uint32_t m = leaf_edges(&c, &r, w->axis, leaf, n);
   return m != 0 && leaf_settle(w, &c, leaf, n, m, any);
 }
 

@@ -42,8 +42,8 @@ SIMD __m256i sort_keys(__m256i v) {
 
 // Put the children of mask m on a stack, the nearest last, and return how many
 // there are.  Writes eight places.
-SIMD uint32_t push_children(uint32_t *key, uint32_t *child, const wide_node *n,
-                            uint32_t m, f8 near) {
+SIMD uint32_t push_children(uint32_t *key, uint32_t *child,
+                            const uint32_t from[WIDE], uint32_t m, f8 near) {
   const __m256i lane = _mm256_setr_epi32(8, 9, 10, 11, 12, 13, 14, 15);
   __m256i v = _mm256_castps_si256(near.v);
   v = _mm256_or_si256(_mm256_and_si256(v, _mm256_set1_epi32(~15)), lane);
@@ -55,7 +55,7 @@ SIMD uint32_t push_children(uint32_t *key, uint32_t *child, const wide_node *n,
   v = _mm256_and_si256(v, _mm256_cmpeq_epi32(in, bit));
 #endif
   v = sort_keys(v);
-  __m256i c = _mm256_loadu_si256((const __m256i *)(const void *)n->child);
+  __m256i c = _mm256_loadu_si256((const __m256i *)(const void *)from);
   _mm256_storeu_si256((__m256i *)(void *)key, v);
   _mm256_storeu_si256((__m256i *)(void *)child,
                       _mm256_permutevar8x32_epi32(c, v));
@@ -64,8 +64,8 @@ SIMD uint32_t push_children(uint32_t *key, uint32_t *child, const wide_node *n,
 
 #else
 
-SIMD uint32_t push_children(uint32_t *key, uint32_t *child, const wide_node *n,
-                            uint32_t m, f8 near) {
+SIMD uint32_t push_children(uint32_t *key, uint32_t *child,
+                            const uint32_t from[WIDE], uint32_t m, f8 near) {
   uint32_t bits[8], count = 0;
   memcpy(bits, &near, sizeof bits);
   for (; m != 0; m &= m - 1) {
@@ -75,7 +75,7 @@ SIMD uint32_t push_children(uint32_t *key, uint32_t *child, const wide_node *n,
       child[at] = child[at - 1];
     }
     key[at] = bits[i];
-    child[at] = n->child[i];
+    child[at] = from[i];
   }
   return count;
 }

@@ -4,15 +4,22 @@
 #define WIDE_STEPS_H
 
 #include "wide_flight.h"
+#include "wide_packet.h"
+
+// Rays that a stream looks at together, at most.
+enum { STREAM = 8192 };
 
 // A stream: its rays and those in flight.  One of hits and blocked is NULL.
+// Of the rays those fly that are in `groups` of PACKET rays, of which the last
+// may be shorter.
 typedef struct stream {
   const wide_tree *t;
   const ray *rays;
   hit *hits;
   bool *blocked;
-  size_t count, taken;
-  flight flights[FLIGHTS];
+  uint32_t count, taken;
+  uint32_t groups[STREAM / PACKET];
+  _Alignas(64) flight flights[FLIGHTS];
 } stream;
 
 // Steps at nodes, in two loops: what the rays enter, and their stacks.  Each
@@ -28,8 +35,9 @@ SIMD void stream_nodes(const wide_tree *t, const flight_list *of, bool any) {
     flight *f = of->at[i];
     const wide_node *n = &t->nodes[f->next];
     uint32_t *child = f->child + f->top;
-    f->top += any ? push_unsorted(child, n, mask[i])
-                  : push_children(f->key + f->top, child, n, mask[i], near[i]);
+    f->top +=
+        any ? push_unsorted(child, n, mask[i])
+            : push_children(f->key + f->top, child, n->child, mask[i], near[i]);
   }
 }
 
@@ -58,9 +66,11 @@ SIMD void stream_leaves(stream *s, const flight_list *of, bool any) {
   for (uint32_t i = 0; i < of->count; i++) {
     flight *f = of->at[i];
     at[count] = f;
-    mask[count] = leaf_edges(
-        &c[count], &f->w, t->triangles + 10 * (size_t)wide_leaf_first(f->next),
-        wide_leaf_count(f->next));
+    leaf_rays r = walk_rays(&f->w);
+    mask[count] =
+        leaf_edges(&c[count], &r, f->w.axis,
+                   t->triangles + 10 * (size_t)wide_leaf_first(f->next),
+                   wide_leaf_count(f->next));
     count += mask[count] != 0;
   }
   for (uint32_t i = 0; i < count; i++)

@@ -7,20 +7,23 @@
 #ifndef WIDE_STREAM_H
 #define WIDE_STREAM_H
 
+#include "wide_descent.h"
+#include "wide_gather.h"
 #include "wide_steps.h"
 
 // Give a flight the next ray of the stream that can hit something; false when
 // there is none.
 SIMD bool flight_start(stream *s, flight *f, bool any) {
   while (s->taken < s->count) {
-    size_t i = s->taken++;
+    uint32_t i = s->groups[s->taken / PACKET] * PACKET + s->taken % PACKET;
+    s->taken++;
     bool can = walk_start(&f->w, s->t, &s->rays[i]);
     if (any)
       s->blocked[i] = false;
     else
       s->hits[i] = (hit){.t = s->rays[i].tmax, .triangle = HIT_NONE};
     if (!can) continue;
-    f->index = (uint32_t)i;
+    f->index = i;
     f->child[0] = FLIGHT_END;
     f->next = 0;
     f->top = 1;
@@ -58,6 +61,42 @@ SIMD void stream_trace(stream *s, bool any) {
     flight_lists *other = now;
     now = next;
     next = other;
+  }
+}
+
+// Trace rays first..first+n-1 if they are a packet.
+SIMD bool stream_packet(stream *s, packet *p, uint32_t first, bool any) {
+  if (!packet_start(p, s->t, s->rays + first)) return false;
+  packet_trace(p, s->t, any);
+  for (uint32_t i = 0; i < PACKET; i++) {
+    if (any)
+      s->blocked[first + i] = (p->alive >> i & 1) == 0;
+    else
+      s->hits[first + i] = p->best[i];
+  }
+  return true;
+}
+
+// All n rays, STREAM at a time: packets first, then the others.
+SIMD void stream_run(stream *s, size_t n, bool any) {
+  packet p;
+  while (n > 0) {
+    uint32_t size = n < STREAM ? (uint32_t)n : STREAM, groups = 0;
+    s->count = 0;
+    for (uint32_t i = 0; i < size; i += PACKET) {
+      bool whole = size - i >= PACKET;
+      if (whole && stream_packet(s, &p, i, any)) continue;
+      s->groups[groups++] = i / PACKET;
+      s->count += whole ? PACKET : size - i;
+    }
+    s->taken = 0;
+    stream_trace(s, any);
+    n -= size;
+    s->rays += size;
+    if (any)
+      s->blocked += size;
+    else
+      s->hits += size;
   }
 }
 

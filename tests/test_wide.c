@@ -86,6 +86,42 @@ static void try_batch(void *context, size_t item, int worker) {
   }
 }
 
+// Rays in fans of 48 that the kernels may take as packets of 16: copies of one
+// ray or rays nearly like it, from one origin or close together; here and
+// there one that fits nowhere.
+static void fill_fans(answers *a, const grove *g, uint64_t *state) {
+  ray like = {{0, 0, 0}, {0, 0, 0}, 0, 0};
+  float spread = 0, apart = 0;
+  for (int i = 0; i < BATCH; i++) {
+    ray other = ray_near(g, state);
+    if (i % 48 == 0) {
+      like = other;
+      spread = ldexpf(vec3_peak(vec3_abs(like.d)), -2 * (i / 48 % 12) - 2);
+      apart = i / 48 % 3 == 0 ? ldexpf(vec3_peak(g->extent), -7) : 0;
+      if (i / 48 % 4 == 3) spread = 0;
+    }
+    a->rays[i] = shape_random(state) < 0.01f ? other : like;
+    ray *r = &a->rays[i];
+    r->d = vec3_mad(r->d, spread, shape_point(state));
+    r->o = vec3_mad(r->o, apart, shape_point(state));
+    if (i % 7 == 0) r->tmax = other.tmax;
+  }
+}
+
+static void try_fans(void *context, size_t item, int worker) {
+  (void)worker;
+  wide_grove *w = context;
+  answers a;
+  uint64_t state = 3571 * item + 7;
+  fill_fans(&a, &w->g, &state);
+  ask_list(&a, &w->g);
+  for (int level = 0; level < WIDE_LEVELS; level++) {
+    wide_grove of = *w;
+    of.level = wide_level_at(level);
+    if (of.level != NULL && !many_agree(&a, &of)) w->g.wrong = 1;
+  }
+}
+
 static void wide_plant(wide_grove *w, shape s, arena *mem, bvh_method method) {
   *w = (wide_grove){0};
   grove_plant(&w->g, s, mem, method);
@@ -105,6 +141,24 @@ static void wide_equals_list(void **unused) {
     wide_grove w;
     wide_plant(&w, all[i / 2], &mem, i % 2 ? BVH_MEDIAN : BVH_SAH);
     pool_run(threads, many(i % 2 ? 10000 : 30000) / BATCH, try_batch, &w);
+    if (w.g.wrong) print_message("# %s differs\n", w.g.s.name);
+    assert_int_equal(w.g.wrong, 0);
+  }
+  pool_free(threads);
+  arena_free(&mem);
+}
+
+// The same for rays next to each other, which go in packets.
+static void packets_equal_list(void **unused) {
+  (void)unused;
+  arena mem = {0};
+  pool *threads = pool_new(&mem, pool_default_threads());
+  shape all[SHAPES];
+  shapes_all(all, &mem);
+  for (int i = 0; i < SHAPES; i++) {
+    wide_grove w;
+    wide_plant(&w, all[i], &mem, BVH_SAH);
+    pool_run(threads, many(30000) / BATCH, try_fans, &w);
     if (w.g.wrong) print_message("# %s differs\n", w.g.s.name);
     assert_int_equal(w.g.wrong, 0);
   }
@@ -241,6 +295,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(trees_are_whole),
       cmocka_unit_test(wide_equals_list),
+      cmocka_unit_test(packets_equal_list),
       cmocka_unit_test(threads_do_not_matter),
       cmocka_unit_test(no_rays),
   };
