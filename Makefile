@@ -52,7 +52,7 @@ CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
               light_bound light_tree light_tree_build light_emission light path
 CHAPTER_11 := $(CHAPTER_10) lean raster_lean
 CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_split \
-             simd_base simd_avx2 simd wide_cost wide_tree wide_levels wide_box wide_packet wide_edges wide_tests wide_distance wide_leaf wide_single wide_push \
+             simd_base simd_avx2 simd simd_lanes wide_cost wide_tree wide_levels wide_box wide_packet wide_edges wide_tests wide_distance wide_leaf wide_single wide_push \
              wide_alike wide_gather wide_interval wide_packet_leaf \
              wide_descent wide_flight wide_steps wide_stream wide_kernel wide_base wide_avx2 wide_avx512 wide \
              vertex_many_levels vertex_lanes vertex_lanes_facet vertex_lanes_smooth \

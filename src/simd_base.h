@@ -107,25 +107,6 @@ SIMD uint32_t f8_lt(f8 a, f8 b) {
   return i4_bits(a.a < b.a) | i4_bits(a.b < b.b) << 4;
 }
 
-// Lane k: the lane of `a` with number at[k].
-SIMD f8 f8_choose(f8 a, const uint32_t at[8]) {
-  float from[8], to[8];
-  memcpy(from, &a, sizeof from);
-  for (int k = 0; k < 8; k++)
-    to[k] = from[at[k]];
-  return f8_load(to);
-}
-
-// Eight rows of eight floats in memory, column by column.
-SIMD void f8_columns(f8 out[8], const float *rows) {
-  float v[8][8];
-  for (int i = 0; i < 8; i++)
-    for (int k = 0; k < 8; k++)
-      v[k][i] = rows[8 * i + k];
-  for (int k = 0; k < 8; k++)
-    out[k] = f8_load(v[k]);
-}
-
 #endif
 
 #endif

@@ -3,6 +3,7 @@
 #ifndef WIDE_PACKET_H
 #define WIDE_PACKET_H
 
+#include "simd_lanes.h"
 #include "wide_box.h"
 
 // Rays of a packet, and of half of one.
