@@ -10,6 +10,7 @@
 #include "text.h"
 
 #include <errno.h>
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -260,7 +261,7 @@ int cmd_keep_open(cmd_keep *k, const shot *sh, render_settings *s) {
   if (p->films >> PART_EVEN & 1) count_halves(p, k->mem);
   s->shard = p->shard;
   s->shards = p->shards;
-  k->hooks = (render_keep){k, keep_load, keep_save};
+  k->hooks = (render_keep){k, keep_load, keep_save, fmax(k->every, 0.01)};
   s->keep = &k->hooks;
   return EXIT_DONE;
 }

@@ -236,8 +236,7 @@ const option option_table[OPTION_COUNT] = {
                             "at a signal and from time to time"},
     [OPT_EVERY] = {"every", 0, CMD_RENDER, OPTION_NUMBER, "SECONDS", "60", 0,
                    1e9,
-                   .help = "how often, as soon as a pass ends, about twice a "
-                           "second"},
+                   .help = "how often: at the first end of a pass after that"},
     [OPT_RESUME] = {"resume", 0, CMD_RENDER, OPTION_SWITCH,
                     .help = "go on from the checkpoint, if it is there"},
     [OPT_MAX_DEPTH] = {"max-depth", 0, SHOWS | CMD_VIEW, OPTION_WHOLE, "N", "0",

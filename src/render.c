@@ -193,6 +193,14 @@ static void render_tiles(void *context, size_t item, int number) {
   if (now - j->last_progress >= PROGRESS_SECONDS) tell_progress(j, now);
 }
 
+// The seconds for a pass.
+static double pass_room(const job *j, double now) {
+  const render_settings *s = j->set;
+  double room = PASS_SECONDS;
+  if (s->keep != NULL) room = fmin(room, s->keep->pass_seconds);
+  return s->deadline > 0 ? fmin(room, s->deadline - now) : room;
+}
+
 // How many samples the next pass takes; 0 to stop.  All that is left when
 // nobody waits; else what should fit into PASS_SECONDS and before the
 // deadline, after a first pass of one.
@@ -206,12 +214,9 @@ static int pass_samples(const job *j) {
   if (s->stop != NULL && *s->stop) return 0;
   if (s->error > 0 && done >= ERROR_MIN_SPP && j->error <= s->error) return 0;
   double now = clock_seconds(), each = (now - j->start) / fresh;
-  double room = PASS_SECONDS;
-  if (s->deadline > 0) {
-    if (now + each > s->deadline) return 0;
-    room = fmin(room, s->deadline - now);
-  }
-  double n = fmin(fmin(room / fmax(each, 1e-9), 4.0 * fresh), (double)left);
+  if (s->deadline > 0 && now + each > s->deadline) return 0;
+  double n = fmin(fmin(pass_room(j, now) / fmax(each, 1e-9), 4.0 * fresh),
+                  (double)left);
   return n < 1 ? 1 : (int)n;
 }
 
@@ -231,11 +236,8 @@ static double guided_samples(const job *j) {
   if (!(j->during > 0)) return g->plan(g->self, &b);
   if (s->stop != NULL && *s->stop) return 0;
   double now = clock_seconds(), each = sample_seconds(j, now);
-  double room = PASS_SECONDS;
-  if (s->deadline > 0) {
-    b.left = (s->deadline - now) / each;
-    room = fmin(room, s->deadline - now);
-  }
+  double room = pass_room(j, now);
+  if (s->deadline > 0) b.left = (s->deadline - now) / each;
   if (!(room > 0)) return 0;
   b.pass = room / each;
   double n = g->plan(g->self, &b);

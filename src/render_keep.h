@@ -15,6 +15,7 @@ typedef struct render_keep {
   // After each pass, and once more, with `last`, when there is no other.  No
   // other call is under way.
   void (*save)(void *self, const render_sums *sums, bool last);
+  double pass_seconds;  // no pass should take longer
 } render_keep;
 
 #endif

@@ -126,7 +126,7 @@ static image render_shard(output *o, int i, const char *path) {
                .key = "scene garden\n"}};
   part_deal(&k.part, &o->mem);
   part_films_new(&k.part, &o->mem);
-  render_keep keep = {&k, keeper_load, keeper_save};
+  render_keep keep = {&k, keeper_load, keeper_save, 1};
   render_settings set = {.width = WIDTH,
                          .height = HEIGHT,
                          .spp = SPP,
