@@ -33,6 +33,13 @@ const help_example help_examples[] = {
      "under the sky of an HDR picture, turned"},
     {CMD_RENDER, "facet render a.obj -q -o - --format png",
      "to standard output, for the next program of a pipe"},
+    {CMD_RENDER,
+     "facet render a.obj --engine path --spp 4096 --checkpoint a.part --resume",
+     "hours, in as many sittings as it takes"},
+    {CMD_RENDER, "facet render a.obj --engine path --shard 3/8",
+     "an eighth of the picture, for facet merge: a.3-of-8.part"},
+    {CMD_MERGE, "facet merge a.*.part -o a.png",
+     "the eight of them, the bytes of a single run"},
     {CMD_VIEW, "facet view garden.scene", "fly through the garden"},
     {CMD_VIEW, "facet view garden.scene --script tour.txt",
      "the same keys again, without a window"},
@@ -62,17 +69,20 @@ const help_example help_examples[] = {
 const help_item help_items[] = {
     {"EXIT STATUS", "0", "done"},
     {NULL, "1",
-     "finished, but the answer is no: pictures differ, a warning under "
-     "--strict"},
+     "finished, but the answer is no: pictures differ, parts do not fit, a "
+     "warning under --strict"},
     {NULL, "2", "the command line is wrong"},
     {NULL, "3", "input is missing or malformed"},
     {NULL, "4", "output could not be written"},
     {NULL, "5", "out of memory, or no OpenGL for the raster engine"},
-    {NULL, "75", "stopped early; what there was is written"},
+    {NULL, "75",
+     "stopped early; what there was is written, or a checkpoint to go on from "
+     "with --resume"},
     {NULL, "128+n", "ended by signal n"},
     {"SIGNALS", "SIGINT, SIGTERM",
-     "The first finishes the pass, writes the picture so far and exits with "
-     "75; the second ends the program at once."},
+     "The first finishes the pass, writes the checkpoint, or where there is "
+     "none the picture so far, and exits with 75; the second ends the program "
+     "at once."},
     {NULL, "SIGUSR1", "Writes the picture so far and goes on."},
     {NULL, "SIGPIPE",
      "Is ignored: a reader that leaves is an output that could not be "

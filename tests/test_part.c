@@ -290,7 +290,8 @@ static void size_is_not_believed(void **state) {
   write_blob(path, b);
   getrusage(RUSAGE_SELF, &before);
   assert_false(part_read_head(&p, path, &mem, &err));
-  assert_non_null(strstr(err.text, "bytes after its head, expected 223935463484"));
+  assert_non_null(
+      strstr(err.text, "bytes after its head, expected 223935463484"));
   getrusage(RUSAGE_SELF, &after);
   assert_true(after.ru_maxrss - before.ru_maxrss < 1000);
   arena_free(&mem);
