@@ -94,23 +94,68 @@ static double finer(vec3 u) {
   return (double)u.x + (double)(z >> 32) * 0x1p-56;
 }
 
+// Whom of the near lights to ask: an emitter or a part of one, and with what
+// probability.
+typedef struct asked {
+  const light_emitter *emitter;
+  const light_part *part;  // NULL: all of it
+  float share;
+} asked;
+
+static bool choose_near(const light_set *l, const light_place *at, double u,
+                        asked *out) {
+  uint32_t i;
+  *out = (asked){0};
+  if (l->memory == NULL) {
+    if (!light_tree_pick(&l->near, at, u, &i, &out->share)) return false;
+  } else {
+    uint32_t key = light_memory_key(l->memory, at->p, at->n);
+    float one = float_min((float)u, 0x1.fffffep-1f);
+    if (!light_memory_pick(l->memory, key, one, &i, &out->share)) return false;
+    out->part = &l->memory->parts.of[i];
+    i = out->part->emitter;
+  }
+  out->emitter = &l->near.emitters[i];
+  return true;
+}
+
+static bool sample_point(const light_set *l, const light_place *at,
+                         const asked *a, light_sample *out) {
+  const light_emitter *e = a->emitter;
+  vec3 d = vec3_sub(e->shape.a, at->p);
+  float d2 = vec3_dot(d, d);
+  out->wi = vec3_unit(d);
+  out->radiance = vec3_scale(l->scene->lights[e->source].power, 1 / d2);
+  out->pdf = a->share;
+  out->delta = out->has_end = true;
+  out->to = e->shape.a;
+  return d2 > 0 && vec3_finite(out->radiance);
+}
+
+// The weights of the corners of the whole that a point of a part has.
+static vec2 of_whole(const light_part *p, const light_point *q) {
+  if (p == NULL) return (vec2){q->b, q->c};
+  return (vec2){p->at.x + q->b * p->ab.x + q->c * p->ac.x,
+                p->at.y + q->b * p->ab.y + q->c * p->ac.y};
+}
+
 static bool sample_near(const light_set *l, const light_place *at, double u1,
                         vec3 u, light_sample *out) {
-  uint32_t i;
-  float share;
-  if (!light_tree_pick(&l->near, at, u1, &i, &share)) return false;
-  const light_emitter *e = &l->near.emitters[i];
-  if (e->is_point) {
-    vec3 d = vec3_sub(e->shape.a, at->p);
-    float d2 = vec3_dot(d, d);
-    vec3 power = vec3_scale(l->scene->lights[e->source].power, 1 / d2);
-    *out = (light_sample){vec3_unit(d), power, share, true, true, e->shape.a};
-    return d2 > 0 && vec3_finite(power);
-  }
+  asked a;
+  if (!choose_near(l, at, u1, &a)) return false;
+  out->chosen = a.share;
+  if (a.part != NULL) out->part = (uint32_t)(a.part - l->memory->parts.of);
+  if (a.emitter->is_point) return sample_point(l, at, &a, out);
+  const light_triangle *t = a.part != NULL ? &a.part->shape : &a.emitter->shape;
   light_point q;
-  if (!light_triangle_sample(&e->shape, at->p, u.y, u.z, &q)) return false;
-  vec3 glow = light_emission(l->scene, e->source, q.b, q.c);
-  *out = (light_sample){q.wi, glow, share * q.pdf, false, true, q.at};
+  if (!light_triangle_sample(t, at->p, u.y, u.z, &q)) return false;
+  vec2 where = of_whole(a.part, &q);
+  out->wi = q.wi;
+  out->radiance =
+      light_emission(l->scene, a.emitter->source, where.x, where.y);
+  out->pdf = a.share * q.pdf;
+  out->has_end = true;
+  out->to = q.at;
   return true;
 }
 
@@ -145,7 +190,7 @@ bool light_sample_at(const light_set *l, vec3 p, vec3 n, vec3 u,
   double choice = finer(u);
   float share = s.near;
   bool found;
-  *out = (light_sample){0};
+  *out = (light_sample){.part = LIGHT_NO_PART};
   if (choice < (double)s.near)
     found = sample_near(l, &at, choice / (double)s.near, u, out);
   else if (choice - (double)s.near < (double)s.far) {
@@ -157,6 +202,7 @@ bool light_sample_at(const light_set *l, vec3 p, vec3 n, vec3 u,
     found = s.env > 0 && sample_env(l, u, out);
   }
   out->pdf *= share;
+  out->chosen *= share;
   return found && out->pdf > 0;
 }
 
@@ -181,9 +227,15 @@ float light_pdf_triangle(const light_set *l, vec3 p, vec3 n, uint32_t triangle,
   uint32_t i;
   if (!emitter_of(l, triangle, &i)) return 0;
   light_place at = light_place_of(p, n);
-  float pdf = light_triangle_pdf(&l->near.emitters[i].shape, p, q);
+  const light_memory *m = l->memory;
+  uint32_t part = m != NULL ? light_parts_at(&m->parts, i, q) : 0;
+  float pdf = light_triangle_pdf(
+      m != NULL ? &m->parts.of[part].shape : &l->near.emitters[i].shape, p, q);
   if (!(pdf > 0)) return 0;
-  return pdf * shares_at(l, &at).near * light_tree_share(&l->near, &at, i);
+  float share =
+      m != NULL ? light_memory_share(m, light_memory_key(m, p, n), part)
+                : light_tree_share(&l->near, &at, i);
+  return pdf * shares_at(l, &at).near * share;
 }
 
 float light_pdf_env(const light_set *l, vec3 p, vec3 n, vec3 wi) {

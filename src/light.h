@@ -4,6 +4,7 @@
 #define LIGHT_H
 
 #include "light_env.h"
+#include "light_memory.h"
 #include "light_tree.h"
 #include "scene.h"
 
@@ -26,6 +27,7 @@ typedef struct light_set {
   light_tree near;    // shining triangles and point lights
   light_name *names;  // of the triangles, rising
   size_t name_count;
+  const light_memory *memory;  // of near; NULL: none
 } light_set;
 
 // What shines in a scene, which must stay: triangles with emission, always;
@@ -47,7 +49,11 @@ typedef struct light_sample {
   bool delta;     // a point or a direction: no scattered ray finds it
   bool has_end;   // the light is at `to`; else it comes from everywhere
   vec3 to;
+  uint32_t part;  // of the memory; LIGHT_NO_PART: none
+  float chosen;   // the probability of that part
 } light_sample;
+
+#define LIGHT_NO_PART UINT32_MAX
 
 // Choose by u, three numbers of [0, 1): light, then direction.  n is the
 // normal of what is lit at p from the side of n only; zero when it lets light

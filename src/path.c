@@ -5,6 +5,7 @@
 
 #include "path.h"
 
+#include "light_emission.h"
 #include "tracer.h"
 #include "vertex.h"
 
@@ -65,6 +66,7 @@ typedef struct shadow {
   vec3 lit;
   light_ray to;
   surface from;
+  size_t record;  // in the log, if there is one
 } shadow;
 
 // The room of one worker: paths, those still on their way with their rays, and
@@ -119,6 +121,19 @@ static void meet_glow(const wave *w, path *p, const vertex *v) {
   add(p, weight, glow);
 }
 
+// Write down who is asked, and what that would bring.
+static void note(const wave *w, const vertex *v, const light_sample *l,
+                 float cosine) {
+  if (l->part == LIGHT_NO_PART) return;
+  path_log *log = w->by->log;
+  float x = cosine > 0 ? light_mean(l->radiance) * cosine * l->chosen / l->pdf
+                       : 0;
+  log->items = array_grow(log->items, &log->room, log->count + 1,
+                          sizeof *log->items);
+  log->items[log->count++] = (light_record){
+      light_memory_key(w->by->lights->memory, v->at.p, v->n), l->part, x * x};
+}
+
 // Ask one light what it adds at v, if nothing is in between.
 static void ask_light(wave *w, const stop *s, const bsdf *b) {
   const vertex *v = s->at;
@@ -126,9 +141,11 @@ static void ask_light(wave *w, const stop *s, const bsdf *b) {
   w->stats->asked++;
   vec3 u = {s->u[USE_PICK], s->u[USE_LIGHT], s->u[USE_LIGHT + 1]};
   light_sample l;
-  if (!light_sample_at(w->by->lights, v->at.p, v->n, u, &l)) return;
+  bool found = light_sample_at(w->by->lights, v->at.p, v->n, u, &l);
   vec3 wi = vertex_local(v, l.wi), wo = vertex_local(v, v->wo);
-  if (!(wi.z > 0)) return;
+  found = found && wi.z > 0;
+  if (w->by->log != NULL) note(w, v, &l, found ? wi.z : 0);
+  if (!found) return;
   vec3 f = l.delta ? bsdf_eval_point(b, wo, wi) : bsdf_eval(b, wo, wi);
   float scale = wi.z / l.pdf;
   if (!l.delta) scale *= power_weight(l.pdf, bsdf_pdf(b, wo, wi));
@@ -143,6 +160,7 @@ static void ask_light(wave *w, const stop *s, const bsdf *b) {
   w->shadow_rays[i] = light_ray_shadow(&to, &v->at, true);
   w->shadows[i].path = s->which;
   w->shadows[i].lit = lit;
+  if (w->by->log != NULL) w->shadows[i].record = w->by->log->count - 1;
   if (!w->sheets) return;
   w->shadows[i].to = to;
   w->shadows[i].from = v->at;
@@ -273,6 +291,8 @@ static void light_all(wave *w) {
     const shadow *s = &w->shadows[i];
     float share = 1;
     if (w->blocked[i]) {
+      if (w->by->log != NULL && w->by->log->count > 0)
+        w->by->log->items[s->record].square = 0;
       if (!w->sheets) continue;
       share = light_ray_through(&s->to, world, &s->from, w->stats);
     }

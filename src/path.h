@@ -9,6 +9,12 @@
 #include "sampler.h"
 #include "vertex.h"
 
+// What a walk writes down of its questions to lights that have a memory.
+typedef struct path_log {
+  light_record *items;
+  size_t room, count;  // for array_free
+} path_log;
+
 // Unbiased for any max_depth, as path_naive is, of the same transport.  All
 // that it points to lives while it is used.
 typedef struct path_tracer {
@@ -17,6 +23,7 @@ typedef struct path_tracer {
   vertices_function *vertices;  // NULL: vertex_at, one by one
   sampler_kind sampler;
   uint64_t seed;
+  path_log *log;  // NULL: none
 } path_tracer;
 
 integrator path_integrator(const path_tracer *p);

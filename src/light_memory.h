@@ -1,0 +1,48 @@
+// light_memory.h — which lights are seen from where, learned from light
+// samples.
+
+#ifndef LIGHT_MEMORY_H
+#define LIGHT_MEMORY_H
+
+#include "light_part.h"
+#include "pick.h"
+
+// What one question brought: the cell of the place (light_memory_key), whom it
+// went to, and the square of the irradiance from there over its density; 0
+// where something was in between.
+typedef struct light_record {
+  uint32_t key, part;
+  float square;
+} light_record;
+
+// Probabilities of the parts of all lights, for each cell of a grid over the
+// scene and each of six sides that a surface may face; one more answer is to
+// ask none.
+typedef struct light_memory {
+  light_parts parts;
+  vec3 lo;
+  float per_unit;     // cells along a unit of length
+  uint32_t *cell_of;  // by key
+  pick *cells;        // the first one for places that nobody has been to
+} light_memory;
+
+// One that has learned nothing: parts by their power.  The box is the scene's.
+// False when the lights are not such that they could be remembered.
+bool light_memory_new(light_memory *out, const light_tree *t, vec3 lo, vec3 hi,
+                      arena *mem);
+
+// Learn from n records; what was known before is forgotten.
+void light_memory_learn(light_memory *m, const light_record *records, size_t n,
+                        arena *mem);
+
+uint32_t light_memory_key(const light_memory *m, vec3 p, vec3 n);
+
+// A part by u in [0, 1), with its probability, for a surface at p that faces
+// n; false when no light is to be asked.
+bool light_memory_pick(const light_memory *m, uint32_t key, float u,
+                       uint32_t *part, float *share);
+
+// The probability of a part.
+float light_memory_share(const light_memory *m, uint32_t key, uint32_t part);
+
+#endif
