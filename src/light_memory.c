@@ -5,15 +5,18 @@
 // Cells along the longest side of the scene.
 enum { GRID = 24, SIDES = 6, KEYS = GRID * GRID * GRID * SIDES };
 
+// So many cells, cubed, are neighbours, who know about the same.
+enum { NEAR = 3, SOME = GRID / NEAR, REGIONS = SOME * SOME * SOME * SIDES };
+
 // The share of questions that goes to all parts by their power: memory is not
 // certain.
 #define DOUBT 0.1f
 
 // A cell takes its own records for as certain as so many of all cells.
-#define SHARED 4.0f
+#define SHARED 2.0f
 
 // The least probability that any light is asked.
-#define LEAST_ASKED 0.15f
+#define LEAST_ASKED 0.08f
 
 static float axis_of(vec3 v, int axis) {
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
@@ -72,21 +75,33 @@ typedef struct lore {
   uint32_t asked;
 } lore;
 
-// Learning: lore by cell and part, the first cell for all.
+// Learning: lore by cell and part, the first cell for all; the same for
+// regions of neighbours.
 typedef struct school {
   light_memory *m;
-  lore *of;
+  lore *of, *region;
+  uint32_t *key_of;  // by cell
   uint32_t cells, parts;
   double whole;  // root of the mean square, summed over the parts, of all
 } school;
+
+static uint32_t region_of(uint32_t key) {
+  uint32_t side = key % SIDES, x = key / SIDES % GRID;
+  uint32_t y = key / SIDES / GRID % GRID, z = key / SIDES / GRID / GRID;
+  return ((z / NEAR * SOME + y / NEAR) * SOME + x / NEAR) * SIDES + side;
+}
+
+static double refine(const lore *own, double usual) {
+  return (own->squares + (double)SHARED * usual) /
+         ((double)own->asked + (double)SHARED);
+}
 
 static double mean_square(const school *s, uint32_t cell, uint32_t part) {
   const lore *all = &s->of[part];
   double usual = all->asked > 0 ? all->squares / all->asked : 0;
   if (cell == 0) return usual;
-  const lore *own = &s->of[(size_t)cell * s->parts + part];
-  return (own->squares + (double)SHARED * usual) /
-         ((double)own->asked + (double)SHARED);
+  usual = refine(&s->region[region_of(s->key_of[cell]) * s->parts + part], usual);
+  return refine(&s->of[(size_t)cell * s->parts + part], usual);
 }
 
 // The best probabilities are as the roots of the mean squares, and so is how
@@ -114,11 +129,12 @@ static pick conclude(school *s, uint32_t cell, arena *mem) {
 static void attend(school *s, const light_record *records, size_t n) {
   for (size_t i = 0; i < n; i++) {
     const light_record *r = &records[i];
-    uint32_t at[2] = {0, s->m->cell_of[r->key]};
-    for (int k = 0; k < 2; k++) {
-      lore *of = &s->of[(size_t)at[k] * s->parts + r->part];
-      of->asked++;
-      of->squares += (double)r->square;
+    size_t cell = s->m->cell_of[r->key];
+    lore *of[3] = {&s->of[r->part], &s->of[cell * s->parts + r->part],
+                   &s->region[region_of(r->key) * s->parts + r->part]};
+    for (int k = 0; k < 3; k++) {
+      of[k]->asked++;
+      of[k]->squares += (double)r->square;
     }
   }
 }
@@ -131,6 +147,10 @@ void light_memory_learn(light_memory *m, const light_record *records, size_t n,
     m->cell_of[i] = 0;
   for (size_t i = 0; i < n; i++)
     if (m->cell_of[records[i].key] == 0) m->cell_of[records[i].key] = s.cells++;
+  s.key_of = ARENA_NEW(&scratch, uint32_t, s.cells);
+  for (uint32_t i = 0; i < KEYS; i++)
+    s.key_of[m->cell_of[i]] = i;
+  s.region = ARENA_NEW(&scratch, lore, (size_t)REGIONS *s.parts);
   s.of = ARENA_NEW(&scratch, lore, (size_t)s.cells *s.parts);
   attend(&s, records, n);
   m->cells = ARENA_NEW(mem, pick, s.cells);
