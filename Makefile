@@ -49,7 +49,8 @@ CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
 CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_world vertex path_naive film shard tally first_hit render_guide render_sums \
              render_keep render
 CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
-              light_bound light_tree light_tree_build light_part light_memory light_emission light path path_learn
+              light_bound light_tree light_tree_build light_part light_memory \
+              light_emission light path path_learn
 CHAPTER_11 := $(CHAPTER_10) lean raster_lean
 CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_split \
              simd_base simd_avx2 simd simd_lanes wide_cost wide_tree wide_levels wide_box wide_packet wide_edges wide_tests wide_distance wide_leaf wide_single wide_push \

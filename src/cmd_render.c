@@ -6,6 +6,7 @@
 #include "adaptive.h"
 #include "clock.h"
 #include "doubling.h"
+#include "path_learn.h"
 #include "plan_use.h"
 #include "vertex_many.h"
 
@@ -159,7 +160,18 @@ static void ready_world(render_job *j) {
             0);
 }
 
-// Who walks: path_naive by --integrator naive, with random numbers.
+// Let the walker learn which lights are seen from where.
+static void learn_lights(render_job *j) {
+  const shot *s = &j->shot;
+  if (j->settings.shading != RENDER_RADIANCE) return;
+  double start = clock_seconds();
+  path_lesson lesson = {&s->view, s->width, s->height};
+  path_learn(&j->lights, &j->paths, &lesson, s->mem, s->threads);
+  j->learn_seconds = clock_seconds() - start;
+}
+
+// Who walks: path_naive by --integrator naive, with random numbers; by auto
+// one that remembers.
 static void choose_integrator(render_job *j) {
   const option_value *v = j->o->value;
   uint64_t seed = j->settings.seed;
@@ -176,6 +188,7 @@ static void choose_integrator(render_job *j) {
                              .sampler = (sampler_kind)v[OPT_SAMPLER].words,
                              .seed = seed};
     j->by = path_integrator(&j->paths);
+    if (v[OPT_INTEGRATOR].words == 0) learn_lights(j);
   }
   if (!plan_needs(&j->plan, PLAN_PATHS)) {
     j->dark = j->by;
@@ -228,6 +241,7 @@ static int run_path(render_job *j) {
   j->display = progress_new(given(j, OPT_QUIET));
   signals_catch_stop();
   render_run(&j->result, &j->world, &s->view, &j->settings, s->mem, s->threads);
+  j->result.seconds += j->learn_seconds;
   progress_clear(&j->display);
   render_plan_note_paths(j);
   return EXIT_DONE;

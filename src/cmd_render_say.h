@@ -37,7 +37,7 @@ typedef struct render_job {
   render_settings settings;  // and how
   render_result result;
   progress display;
-  double write_seconds;
+  double learn_seconds, write_seconds;
 } render_job;
 
 // The line that ends a run, for people.

@@ -151,8 +151,7 @@ static bool sample_near(const light_set *l, const light_place *at, double u1,
   if (!light_triangle_sample(t, at->p, u.y, u.z, &q)) return false;
   vec2 where = of_whole(a.part, &q);
   out->wi = q.wi;
-  out->radiance =
-      light_emission(l->scene, a.emitter->source, where.x, where.y);
+  out->radiance = light_emission(l->scene, a.emitter->source, where.x, where.y);
   out->pdf = a.share * q.pdf;
   out->has_end = true;
   out->to = q.at;
@@ -232,9 +231,9 @@ float light_pdf_triangle(const light_set *l, vec3 p, vec3 n, uint32_t triangle,
   float pdf = light_triangle_pdf(
       m != NULL ? &m->parts.of[part].shape : &l->near.emitters[i].shape, p, q);
   if (!(pdf > 0)) return 0;
-  float share =
-      m != NULL ? light_memory_share(m, light_memory_key(m, p, n), part)
-                : light_tree_share(&l->near, &at, i);
+  float share = m != NULL
+                    ? light_memory_share(m, light_memory_key(m, p, n), part)
+                    : light_tree_share(&l->near, &at, i);
   return pdf * shares_at(l, &at).near * share;
 }
 

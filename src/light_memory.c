@@ -80,7 +80,7 @@ typedef struct lore {
 typedef struct school {
   light_memory *m;
   lore *of, *region;
-  uint32_t *key_of;  // by cell
+  uint32_t *key_of, *visits;  // by cell
   uint32_t cells, parts;
   double whole;  // root of the mean square, summed over the parts, of all
 } school;
@@ -100,7 +100,8 @@ static double mean_square(const school *s, uint32_t cell, uint32_t part) {
   const lore *all = &s->of[part];
   double usual = all->asked > 0 ? all->squares / all->asked : 0;
   if (cell == 0) return usual;
-  usual = refine(&s->region[region_of(s->key_of[cell]) * s->parts + part], usual);
+  usual =
+      refine(&s->region[region_of(s->key_of[cell]) * s->parts + part], usual);
   return refine(&s->of[(size_t)cell * s->parts + part], usual);
 }
 
@@ -126,12 +127,41 @@ static pick conclude(school *s, uint32_t cell, arena *mem) {
   return pick_of(weights, s->parts + 1, mem);
 }
 
+// The mean square of what a question brings in a cell, over that if parts are
+// asked by their power.
+typedef struct outlook {
+  double by_power, by_memory;
+} outlook;
+
+static void look_at(const school *s, uint32_t cell, double power, outlook *o) {
+  const pick *p = &s->m->cells[cell];
+  for (uint32_t i = 0; i < s->parts; i++) {
+    double share = (double)pick_share(p, i), square = mean_square(s, cell, i);
+    if (!(share > 0)) continue;
+    o->by_memory += (double)s->visits[cell] * square / share;
+    o->by_power +=
+        (double)s->visits[cell] * square * power / (double)power_of(s->m, i);
+  }
+}
+
+// How many times as many questions the same would take without memory.
+static double gain_of(const school *s) {
+  double power = 0;
+  outlook all = {0, 0};
+  for (uint32_t i = 0; i < s->parts; i++)
+    power += (double)power_of(s->m, i);
+  for (uint32_t cell = 1; cell < s->cells; cell++)
+    look_at(s, cell, power, &all);
+  return all.by_memory > 0 ? all.by_power / all.by_memory : 0;
+}
+
 static void attend(school *s, const light_record *records, size_t n) {
   for (size_t i = 0; i < n; i++) {
     const light_record *r = &records[i];
     size_t cell = s->m->cell_of[r->key];
     lore *of[3] = {&s->of[r->part], &s->of[cell * s->parts + r->part],
                    &s->region[region_of(r->key) * s->parts + r->part]};
+    s->visits[cell]++;
     for (int k = 0; k < 3; k++) {
       of[k]->asked++;
       of[k]->squares += (double)r->square;
@@ -139,8 +169,8 @@ static void attend(school *s, const light_record *records, size_t n) {
   }
 }
 
-void light_memory_learn(light_memory *m, const light_record *records, size_t n,
-                        arena *mem) {
+double light_memory_learn(light_memory *m, const light_record *records,
+                          size_t n, arena *mem) {
   arena scratch = {0};
   school s = {.m = m, .cells = 1, .parts = m->parts.count};
   for (size_t i = 0; i < KEYS; i++)
@@ -150,13 +180,16 @@ void light_memory_learn(light_memory *m, const light_record *records, size_t n,
   s.key_of = ARENA_NEW(&scratch, uint32_t, s.cells);
   for (uint32_t i = 0; i < KEYS; i++)
     s.key_of[m->cell_of[i]] = i;
-  s.region = ARENA_NEW(&scratch, lore, (size_t)REGIONS *s.parts);
-  s.of = ARENA_NEW(&scratch, lore, (size_t)s.cells *s.parts);
+  s.visits = ARENA_NEW(&scratch, uint32_t, s.cells);
+  s.region = ARENA_NEW(&scratch, lore, (size_t)REGIONS * s.parts);
+  s.of = ARENA_NEW(&scratch, lore, (size_t)s.cells * s.parts);
   attend(&s, records, n);
   m->cells = ARENA_NEW(mem, pick, s.cells);
   for (uint32_t i = 0; i < s.cells; i++)
     m->cells[i] = conclude(&s, i, mem);
+  double gain = gain_of(&s);
   arena_free(&scratch);
+  return gain;
 }
 
 bool light_memory_pick(const light_memory *m, uint32_t key, float u,

@@ -31,9 +31,11 @@ typedef struct light_memory {
 bool light_memory_new(light_memory *out, const light_tree *t, vec3 lo, vec3 hi,
                       arena *mem);
 
-// Learn from n records; what was known before is forgotten.
-void light_memory_learn(light_memory *m, const light_record *records, size_t n,
-                        arena *mem);
+// Learn from n records; what was known before is forgotten.  The result is how
+// many questions to a part by its power are worth one question now, by what
+// the records say of themselves.
+double light_memory_learn(light_memory *m, const light_record *records,
+                          size_t n, arena *mem);
 
 uint32_t light_memory_key(const light_memory *m, vec3 p, vec3 n);
 

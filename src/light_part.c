@@ -37,7 +37,7 @@ bool light_parts_of(light_parts *out, const light_tree *t, arena *mem) {
   light_parts p = {.tree = t, .cuts = 1};
   while ((p.cuts + 1) * (p.cuts + 1) * t->count <= LIGHT_PARTS_MOST)
     p.cuts++;
-  p.of = ARENA_NEW(mem, light_part, (size_t)p.cuts *p.cuts *t->count);
+  p.of = ARENA_NEW(mem, light_part, (size_t)p.cuts * p.cuts * t->count);
   p.first = ARENA_NEW(mem, uint32_t, t->count);
   for (uint32_t e = 0; e < t->count; e++) {
     const light_emitter *of = &t->emitters[e];

@@ -248,7 +248,8 @@ const option option_table[OPTION_COUNT] = {
                   "N", "0", 0, 9007199254740992.0,
                   .help = "another seed, other noise"},
     [OPT_INTEGRATOR] = {"integrator", 0, SHOWS, OPTION_WORD, "auto|naive|mis",
-                        "auto", .help = "how paths look for light"},
+                        "auto",
+                        .help = "how paths look for light; auto also learns"},
     [OPT_SAMPLER] = {"sampler", 0, SHOWS, OPTION_WORD, "sobol|random", "sobol",
                      .help =
                          "where random numbers come from; naive has its own"},

@@ -66,8 +66,10 @@ typedef struct shadow {
   vec3 lit;
   light_ray to;
   surface from;
-  size_t record;  // in the log, if there is one
+  size_t record;  // in the log; NO_RECORD: none
 } shadow;
+
+#define NO_RECORD SIZE_MAX
 
 // The room of one worker: paths, those still on their way with their rays, and
 // the light samples of this wave.
@@ -121,17 +123,18 @@ static void meet_glow(const wave *w, path *p, const vertex *v) {
   add(p, weight, glow);
 }
 
-// Write down who is asked, and what that would bring.
-static void note(const wave *w, const vertex *v, const light_sample *l,
-                 float cosine) {
-  if (l->part == LIGHT_NO_PART) return;
+// Write down who is asked, and what that would bring; the number of that line.
+static size_t note(const wave *w, const vertex *v, const light_sample *l,
+                   float cosine) {
   path_log *log = w->by->log;
-  float x = cosine > 0 ? light_mean(l->radiance) * cosine * l->chosen / l->pdf
-                       : 0;
-  log->items = array_grow(log->items, &log->room, log->count + 1,
-                          sizeof *log->items);
+  if (log == NULL || l->part == LIGHT_NO_PART) return NO_RECORD;
+  float x = 0;
+  if (cosine > 0) x = light_mean(l->radiance) * cosine * l->chosen / l->pdf;
+  log->items =
+      array_grow(log->items, &log->room, log->count + 1, sizeof *log->items);
   log->items[log->count++] = (light_record){
       light_memory_key(w->by->lights->memory, v->at.p, v->n), l->part, x * x};
+  return log->count - 1;
 }
 
 // Ask one light what it adds at v, if nothing is in between.
@@ -144,7 +147,7 @@ static void ask_light(wave *w, const stop *s, const bsdf *b) {
   bool found = light_sample_at(w->by->lights, v->at.p, v->n, u, &l);
   vec3 wi = vertex_local(v, l.wi), wo = vertex_local(v, v->wo);
   found = found && wi.z > 0;
-  if (w->by->log != NULL) note(w, v, &l, found ? wi.z : 0);
+  size_t record = note(w, v, &l, found ? wi.z : 0);
   if (!found) return;
   vec3 f = l.delta ? bsdf_eval_point(b, wo, wi) : bsdf_eval(b, wo, wi);
   float scale = wi.z / l.pdf;
@@ -160,7 +163,7 @@ static void ask_light(wave *w, const stop *s, const bsdf *b) {
   w->shadow_rays[i] = light_ray_shadow(&to, &v->at, true);
   w->shadows[i].path = s->which;
   w->shadows[i].lit = lit;
-  if (w->by->log != NULL) w->shadows[i].record = w->by->log->count - 1;
+  w->shadows[i].record = record;
   if (!w->sheets) return;
   w->shadows[i].to = to;
   w->shadows[i].from = v->at;
@@ -291,10 +294,11 @@ static void light_all(wave *w) {
     const shadow *s = &w->shadows[i];
     float share = 1;
     if (w->blocked[i]) {
-      if (w->by->log != NULL && w->by->log->count > 0)
-        w->by->log->items[s->record].square = 0;
-      if (!w->sheets) continue;
-      share = light_ray_through(&s->to, world, &s->from, w->stats);
+      share = 0;
+      if (w->sheets)
+        share = light_ray_through(&s->to, world, &s->from, w->stats);
+      if (s->record != NO_RECORD) w->by->log->items[s->record].square *= share;
+      if (!(share > 0)) continue;
     }
     path *p = &w->paths[s->path];
     p->sum = vec3_mad(p->sum, share, s->lit);

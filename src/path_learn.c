@@ -2,23 +2,37 @@
 
 #include "path_learn.h"
 
+#include <string.h>
+
 // Other numbers than those of the picture.
 #define OTHER_SEED UINT64_C(0x6c6561726e)
 
-// What the threads share; a worker's room and a log for each batch.
-typedef struct lesson_job {
+// A path for so many pixels, but no more than so many paths.
+enum { PIXELS_PER_PATH = 4, MOST_PATHS = 1 << 17 };
+
+// After this share of the paths the first lesson ends, and what is remembered
+// must be worth so much.
+enum { FIRST_SHARE = 6 };
+#define WORTH 1.25
+
+// From fewer questions nothing is learned.
+enum { LEAST_RECORDS = 1000 };
+
+// What the threads share: a worker's room and a log for each batch.
+typedef struct school_job {
   const path_tracer *by;
   const path_lesson *lesson;
   path_log *logs;
   void **rooms;
-} lesson_job;
+  size_t paths, from, to;  // all of them; those of this lesson
+} school_job;
 
-// Path i of n starts at one of the pixels, all of them in order.
-static path_start start_of(const lesson_job *job, const integrator *by,
+// Path i starts at one of the pixels, all of them in order.
+static path_start start_of(const school_job *job, const integrator *by,
                            size_t i) {
   const path_lesson *l = job->lesson;
   uint64_t pixels = (uint64_t)l->width * (uint64_t)l->height;
-  uint64_t pixel = (uint64_t)i * pixels / l->paths;
+  uint64_t pixel = (uint64_t)i * pixels / job->paths;
   vec2 at = by->place(by->self, i, 0);
   float x = (float)(pixel % (uint64_t)l->width) + at.x;
   float y = (float)(pixel / (uint64_t)l->width) + at.y;
@@ -26,7 +40,7 @@ static path_start start_of(const lesson_job *job, const integrator *by,
 }
 
 static void walk(void *context, size_t item, int worker) {
-  const lesson_job *job = context;
+  const school_job *job = context;
   path_tracer one = *job->by;
   one.log = &job->logs[item];
   one.seed ^= OTHER_SEED;
@@ -34,49 +48,78 @@ static void walk(void *context, size_t item, int worker) {
   path_start starts[INTEGRATOR_BATCH];
   vec3 colors[INTEGRATOR_BATCH];
   path_stats stats = {0};
-  size_t first = item * INTEGRATOR_BATCH, n = job->lesson->paths - first;
+  size_t first = job->from + item * INTEGRATOR_BATCH, n = job->to - first;
   if (n > INTEGRATOR_BATCH) n = INTEGRATOR_BATCH;
   for (size_t i = 0; i < n; i++)
     starts[i] = start_of(job, &by, first + i);
   by.radiance(by.self, starts, n, colors, &stats, job->rooms[worker]);
 }
 
-static light_record *join(path_log *logs, size_t n, arena *mem, size_t *count) {
-  *count = 0;
-  for (size_t i = 0; i < n; i++)
-    *count += logs[i].count;
-  light_record *all = ARENA_NEW(mem, light_record, *count), *at = all;
+// One log of all.
+static void join(path_log *all, const path_log *logs, size_t n) {
   for (size_t i = 0; i < n; i++) {
-    for (size_t k = 0; k < logs[i].count; k++)
-      *at++ = logs[i].items[k];
+    size_t count = logs[i].count;
+    all->items = array_grow(all->items, &all->room, all->count + count,
+                            sizeof *all->items);
+    if (count > 0)
+      memcpy(all->items + all->count, logs[i].items,
+             count * sizeof *all->items);
+    all->count += count;
     array_free(logs[i].items);
   }
-  return all;
 }
 
-bool path_learn(light_set *lights, const path_tracer *by,
-                const path_lesson *lesson, arena *mem, pool *threads) {
-  const mesh *m = &lights->scene->mesh;
+// The next paths, up to number `to`.
+static void hold_lesson(school_job *job, size_t to, path_log *all,
+                        pool *threads) {
+  arena scratch = {0};
+  job->to = to;
+  size_t n = (to - job->from + INTEGRATOR_BATCH - 1) / INTEGRATOR_BATCH;
+  job->logs = ARENA_NEW(&scratch, path_log, n);
+  pool_run(threads, n, walk, job);
+  join(all, job->logs, n);
+  job->from = to;
+  arena_free(&scratch);
+}
+
+static bool new_memory(light_memory *out, const light_set *l, arena *mem) {
+  const mesh *m = &l->scene->mesh;
   vec3 lo = vec3_all(INFINITY), hi = vec3_all(-INFINITY);
   for (size_t i = 0; i < m->position_count; i++) {
     lo = vec3_min(lo, m->positions[i]);
     hi = vec3_max(hi, m->positions[i]);
   }
+  return light_memory_new(out, &l->near, lo, hi, mem);
+}
+
+static void make_rooms(school_job *job, arena *mem, const pool *threads) {
+  int n = threads == NULL ? 1 : pool_threads(threads);
+  integrator by = path_integrator(job->by);
+  job->rooms = ARENA_NEW(mem, void *, (size_t)n);
+  for (int i = 0; i < n; i++)
+    job->rooms[i] = by.room(by.self, mem);
+}
+
+bool path_learn(light_set *lights, const path_tracer *by,
+                const path_lesson *lesson, arena *mem, pool *threads) {
   light_memory *memory = ARENA_NEW(mem, light_memory, 1);
-  if (!light_memory_new(memory, &lights->near, lo, hi, mem)) return false;
-  lights->memory = memory;
+  if (!new_memory(memory, lights, mem)) return false;
   arena scratch = {0};
-  size_t batches = (lesson->paths + INTEGRATOR_BATCH - 1) / INTEGRATOR_BATCH;
-  int workers = threads == NULL ? 1 : pool_threads(threads);
-  lesson_job job = {by, lesson, ARENA_NEW(&scratch, path_log, batches),
-                    ARENA_NEW(&scratch, void *, (size_t)workers)};
-  integrator walker = path_integrator(by);
-  for (int i = 0; i < workers; i++)
-    job.rooms[i] = walker.room(walker.self, &scratch);
-  pool_run(threads, batches, walk, &job);
-  size_t count;
-  light_record *records = join(job.logs, batches, &scratch, &count);
-  light_memory_learn(memory, records, count, mem);
+  school_job job = {.by = by, .lesson = lesson};
+  job.paths = (size_t)lesson->width * (size_t)lesson->height / PIXELS_PER_PATH;
+  if (job.paths > MOST_PATHS) job.paths = MOST_PATHS;
+  make_rooms(&job, &scratch, threads);
+  path_log all = {0};
+  lights->memory = memory;
+  hold_lesson(&job, job.paths / FIRST_SHARE, &all, threads);
+  double gain = light_memory_learn(memory, all.items, all.count, mem);
+  if (gain >= WORTH && all.count >= LEAST_RECORDS) {
+    hold_lesson(&job, job.paths, &all, threads);
+    light_memory_learn(memory, all.items, all.count, mem);
+  } else {
+    lights->memory = NULL;
+  }
+  array_free(all.items);
   arena_free(&scratch);
-  return true;
+  return lights->memory != NULL;
 }

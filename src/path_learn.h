@@ -6,16 +6,15 @@
 #include "path.h"
 #include "pool.h"
 
-// The film that the paths start from, and how many there are.
+// The film that the paths start from.
 typedef struct path_lesson {
   const camera_view *view;
   int width, height;
-  size_t paths;
 } path_lesson;
 
-// Give lights, which by->lights must be, a memory; in mem.  It is a function
-// of the scene, the lesson and the seed.  False, and nothing done, where the
-// lights cannot be remembered.
+// Give lights, which by->lights must be, a memory, in mem, if that pays.  It is
+// a function of the scene, the lesson and the seed, but not of the number of
+// samples: whoever takes more of them, or a share, knows the same.
 bool path_learn(light_set *lights, const path_tracer *by,
                 const path_lesson *lesson, arena *mem, pool *threads);
 

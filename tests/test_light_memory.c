@@ -1,0 +1,266 @@
+// test_light_memory.c — lights that are remembered: parts of emitters, and the
+// same light with whatever memory.
+
+#include "path_learn.h"
+#include "vertex_many.h"
+#include "worlds.h"
+
+#include <string.h>
+
+enum { WIDTH = 64, HEIGHT = 48 };
+
+static const vec3 BLACK = {0, 0, 0};
+
+// A room with a lamp outside of a hole in its left wall, which is nearer to -x
+// than the room by `outside`.
+static world *room_with_hole(float outside) {
+  world *w = world_new();
+  w->materials[0] = world_material(MATERIAL_BLINN_PHONG, vec3_all(0.6f), BLACK);
+  w->materials[1] = world_material(MATERIAL_BLINN_PHONG, BLACK, BLACK);
+  w->materials[1].ke = vec3_all(9);
+  world_quad(w, (vec3){-2, 0, 2}, (vec3){4, 0, 0}, (vec3){0, 0, -4}, 0);
+  world_quad(w, (vec3){-2, 2, -2}, (vec3){4, 0, 0}, (vec3){0, 0, 4}, 0);
+  world_quad(w, (vec3){-2, 0, -2}, (vec3){4, 0, 0}, (vec3){0, 2, 0}, 0);
+  world_quad(w, (vec3){2, 0, 2}, (vec3){-4, 0, 0}, (vec3){0, 2, 0}, 0);
+  world_quad(w, (vec3){2, 0, -2}, (vec3){0, 0, 4}, (vec3){0, 2, 0}, 0);
+  static const float hole[4][4] = {{-2, -0.3f, 0, 2},
+                                   {0.3f, 2, 0, 2},
+                                   {-0.3f, 0.3f, 0, 1},
+                                   {-0.3f, 0.3f, 1.5f, 2}};
+  for (int i = 0; i < 4; i++) {
+    const float *h = hole[i];
+    world_quad(w, (vec3){-2, h[2], h[1]}, (vec3){0, 0, h[0] - h[1]},
+               (vec3){0, h[3] - h[2], 0}, 0);
+  }
+  float x = -2 - outside;
+  world_quad(w, (vec3){x, 0, 2}, (vec3){0, 0, -4}, (vec3){0, 3, 0}, 1);
+  world_ready(w, 0);
+  return w;
+}
+
+// A walker of a world from a camera in the right corner.
+typedef struct walker {
+  light_set lights;
+  path_tracer tracer;
+  integrator by;
+  camera_view view;
+} walker;
+
+static void walker_ready(walker *k, world *w) {
+  camera c = {NULL, {1.6f, 1.2f, 1.7f}, {-1, 0.5f, -1}, {0, 1, 0}, 65};
+  error err;
+  assert_true(camera_view_of(&k->view, &c, WIDTH, HEIGHT, &err));
+  light_set_build(&k->lights, &w->scene, true, true, &w->mem, NULL);
+  k->tracer = (path_tracer){.world = &w->path,
+                            .lights = &k->lights,
+                            .vertices = vertex_many_best(),
+                            .seed = 3};
+  k->by = path_integrator(&k->tracer);
+}
+
+// A lesson of as many paths as those of a larger picture.
+static bool learn(walker *k, world *w, pool *threads) {
+  path_lesson lesson = {&k->view, 4 * WIDTH, 4 * HEIGHT};
+  error err;
+  camera_view small = k->view;
+  camera c = {NULL, {1.6f, 1.2f, 1.7f}, {-1, 0.5f, -1}, {0, 1, 0}, 65};
+  assert_true(camera_view_of(&k->view, &c, lesson.width, lesson.height, &err));
+  bool any = path_learn(&k->lights, &k->tracer, &lesson, &w->mem, threads);
+  k->view = small;
+  return any;
+}
+
+static render_result draw(world *w, const walker *k, int spp, pool *threads) {
+  render_settings how = {.width = WIDTH,
+                         .height = HEIGHT,
+                         .spp = spp,
+                         .seed = 3,
+                         .by = &k->by,
+                         .aovs = RENDER_AOV_VARIANCE};
+  render_result r;
+  render_run(&r, &w->path, &k->view, &how, &w->mem, threads);
+  assert_int_equal(r.non_finite, 0);
+  return r;
+}
+
+// The parts of a lamp cover it once: their areas add up, and a point inside of
+// a part is found there, at the place that its weights say.
+static void parts_cover_the_whole(void **state) {
+  (void)state;
+  world *w = room_with_hole(1);
+  walker k;
+  walker_ready(&k, w);
+  light_parts parts;
+  assert_true(light_parts_of(&parts, &k.lights.near, &w->mem));
+  assert_int_equal(parts.count, 2 * 5 * 5);
+  double area = 0;
+  for (uint32_t i = 0; i < parts.count; i++) {
+    const light_part *p = &parts.of[i];
+    const light_triangle *t = &k.lights.near.emitters[p->emitter].shape;
+    area += (double)p->shape.area;
+    assert_true(vec3_dot(p->shape.n, t->n) > 0.9999f);
+    for (int step = 1; step < 9; step++) {
+      float b = 0.1f * (float)step, c = 0.09f * (float)(10 - step) - 0.05f;
+      vec3 q = vec3_mad(vec3_mad(p->shape.a, b, p->shape.ab), c, p->shape.ac);
+      if (b + c < 0.98f && c > 0.02f)
+        assert_int_equal(light_parts_at(&parts, p->emitter, q), i);
+      vec2 at = {p->at.x + b * p->ab.x + c * p->ac.x,
+                 p->at.y + b * p->ab.y + c * p->ac.y};
+      vec3 same = vec3_mad(vec3_mad(t->a, at.x, t->ab), at.y, t->ac);
+      assert_true(vec3_length(vec3_sub(q, same)) < 1e-5f);
+    }
+  }
+  assert_true(fabs(area - 12) < 1e-4);
+  world_free(w);
+}
+
+// The density of a sample is that of its direction, by the one of the two
+// triangles of the lamp that it lies on.
+static void check_density(const world *w, const light_set *l, vec3 p,
+                          const light_sample *s) {
+  float above = s->to.y / 3 - (2 - s->to.z) / 4;  // the diagonal
+  if (fabsf(above) < 1e-3f) return;
+  uint32_t lamp = (uint32_t)w->scene.mesh.triangle_count - 2 + (above > 0);
+  float pdf = light_pdf_triangle(l, p, (vec3){0, 1, 0}, lamp, s->to);
+  assert_true(fabsf(pdf / s->pdf - 1) < 1e-3f);
+}
+
+// Whatever is remembered, even nonsense, light samples over their densities
+// add up to the same; the densities are those of the samples; and what is
+// never asked does not count as found.
+static void lies_do_no_harm(void **state) {
+  (void)state;
+  world *w = room_with_hole(1);
+  walker k;
+  walker_ready(&k, w);
+  light_memory m;
+  vec3 p = {0.5f, 0.1f, 0.2f}, n = {0, 1, 0};
+  assert_true(
+      light_memory_new(&m, &k.lights.near, vec3_all(-4), vec3_all(4), &w->mem));
+  double sums[2][2] = {{0}};
+  const int count = (int)shortened(200000);
+  for (int lie = 0; lie < 2; lie++) {
+    k.lights.memory = lie ? &m : NULL;
+    light_record records[60];
+    for (uint32_t i = 0; i < 60; i++)
+      records[i] = (light_record){light_memory_key(&m, p, n), i % 50,
+                                  i % 7 == 3 ? 100.0f : 0};
+    if (lie) light_memory_learn(&m, records, 60, &w->mem);
+    for (int i = 0; i < count; i++) {
+      rng r = rng_of(4, (uint64_t)i, (uint32_t)lie);
+      vec3 u = {rng_next(&r), rng_next(&r), rng_next(&r)};
+      light_sample l;
+      if (!light_sample_at(&k.lights, p, n, u, &l) || !(l.wi.y > 0)) continue;
+      if (i < 2000) check_density(w, &k.lights, p, &l);
+      double x = (double)(l.radiance.x * l.wi.y / l.pdf);
+      sums[lie][0] += x, sums[lie][1] += x * x;
+    }
+  }
+  double mean[2], spread = 0;
+  for (int i = 0; i < 2; i++) {
+    mean[i] = sums[i][0] / count;
+    spread += (sums[i][1] / count - mean[i] * mean[i]) / count;
+  }
+  print_message("# irradiance %.5f, with lies %.5f, +- %.5f\n", mean[0],
+                mean[1], sqrt(spread));
+  assert_true(fabs(mean[0] - mean[1]) < 4 * sqrt(spread));
+  world_free(w);
+}
+
+// A lamp behind a hole: the same picture with memory, and less than half of
+// the variance, relative to what is seen.
+static void memory_helps(void **state) {
+  (void)state;
+  world *w = room_with_hole(1);
+  walker k;
+  walker_ready(&k, w);
+  render_result plain = draw(w, &k, 64, NULL);
+  assert_true(learn(&k, w, NULL));
+  render_result learned = draw(w, &k, 64, NULL);
+  double difference = 0, variance = 0, noise[2] = {0}, squares = 0;
+  int blocks = 0;
+  for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
+    double mean = (double)plain.color.pixels[i].y;
+    double scale = 1 / (mean * mean + 0.01);
+    noise[0] += scale * (double)plain.aov[3].pixels[i].y;
+    noise[1] += scale * (double)learned.aov[3].pixels[i].y;
+    variance += (double)plain.aov[3].pixels[i].y;
+    variance += (double)learned.aov[3].pixels[i].y;
+  }
+  for (size_t y = 0; y < HEIGHT; y += 8)
+    for (size_t x = 0; x < WIDTH; x += 8) {
+      double d = 0, v = 0;
+      for (size_t i = 0; i < 64; i++) {
+        size_t at = (y + i / 8) * WIDTH + x + i % 8;
+        d += (double)plain.color.pixels[at].y -
+             (double)learned.color.pixels[at].y;
+        v += (double)plain.aov[3].pixels[at].y +
+             (double)learned.aov[3].pixels[at].y;
+      }
+      difference += d;
+      squares += v > 0 ? d * d / v : 0;
+      blocks++;
+    }
+  double z = difference / sqrt(variance);
+  print_message("# noise %.3g, with memory %.3g; z %.2f, mean square %.2f\n",
+                noise[0], noise[1], z, squares / blocks);
+  assert_true(fabs(z) < 4);
+  assert_true(squares / blocks < 1.5);
+  assert_true(noise[1] < 0.5 * noise[0]);
+  world_free(w);
+}
+
+// Threads do not show in what is learned.
+static void same_memory(void **state) {
+  (void)state;
+  world *w = room_with_hole(1);
+  render_result pictures[2];
+  for (int i = 0; i < 2; i++) {
+    walker k;
+    walker_ready(&k, w);
+    pool *threads = pool_new(&w->mem, i == 0 ? 1 : 7);
+    assert_true(learn(&k, w, threads));
+    pictures[i] = draw(w, &k, 2, threads);
+    pool_free(threads);
+  }
+  assert_memory_equal(pictures[0].color.pixels, pictures[1].color.pixels,
+                      WIDTH * HEIGHT * sizeof(vec3));
+  world_free(w);
+}
+
+// Where every lamp is seen, or there are too many or none, nothing is
+// remembered, and pictures are what they were.
+static void nothing_to_remember(void **state) {
+  (void)state;
+  world *w = world_new();
+  w->materials[0] = world_material(MATERIAL_BLINN_PHONG, vec3_all(0.6f), BLACK);
+  w->materials[1] = w->materials[0];
+  w->materials[1].ke = vec3_all(9);
+  world_quad(w, (vec3){-2, 0, 2}, (vec3){4, 0, 0}, (vec3){0, 0, -4}, 0);
+  world_quad(w, (vec3){-1, 2, -1}, (vec3){2, 0, 0}, (vec3){0, 0, 2}, 1);
+  world_ready(w, 0);
+  walker k;
+  walker_ready(&k, w);
+  assert_false(learn(&k, w, NULL));
+  assert_true(k.lights.memory == NULL);
+  world_free(w);
+  w = world_new();
+  w->materials[0] = world_material(MATERIAL_BLINN_PHONG, vec3_all(0.6f), BLACK);
+  w->materials[0].ke = vec3_all(1);
+  world_ball(w, vec3_all(0), 1, 3, false, 0);
+  world_ready(w, 0);
+  walker_ready(&k, w);
+  assert_false(learn(&k, w, NULL));
+  world_free(w);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(parts_cover_the_whole),
+      cmocka_unit_test(lies_do_no_harm),
+      cmocka_unit_test(memory_helps),
+      cmocka_unit_test(same_memory),
+      cmocka_unit_test(nothing_to_remember),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
