@@ -15,7 +15,7 @@ enum { HUFFMAN_MAX_PIXELS = 8 * 64 };
 
 // A progressive file may repaint all of the picture with every few bytes.  Real
 // ones do so about ten times, and have some bits for each block.
-enum { MAX_SCANS = 200, MAX_BYTE_WORK = 4096, FREE_WORK = 1 << 28 };
+enum { MAX_SCANS = 200, MAX_BYTE_WORK = 8192, FREE_WORK = 1 << 28 };
 
 // One file in work.  manager comes first: libjpeg hands its address back.
 typedef struct jpeg_job {

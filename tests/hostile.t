@@ -204,6 +204,10 @@ def kinds():
         row(f"{kind} as script", {"in/a.obj": USES, "in/x": Kind(kind)}, "view a.obj --script x", 3, word)
         row(f"{kind} as questions", {"in/x": Kind(kind)}, "ibl 1,1,1 --eval x", 3, word)
         row(f"{kind} as rays", {"in/a.obj": USES, "in/x": Kind(kind)}, "bench rays a.obj --rays x", 3, word)
+        row(f"{kind} as part", {"in/x.part": Kind(kind)}, "merge x.part -o o.png", 3, [word, "x.part"])
+        row(f"{kind} as checkpoint", {"in/a.obj": USES, "in/x": Kind(kind)},
+            "render a.obj --engine path -r 8x8 --spp 1 --checkpoint x --resume -o o.png", 4 if kind == "folder" else 3,
+            "x: cannot be written: Is a directory" if kind == "folder" else word)
         # A folder is no library, as in a path that ends early.
         row(f"{kind} as library", {"in/a.obj": "mtllib x.mtl\n" + USES, "in/x.mtl": Kind(kind)},
             "render a.obj -r 8x8 -o o.png", 0 if kind == "folder" else 3, "x.mtl")

@@ -1,5 +1,6 @@
 // test_text.c — lines, words and files named inside files.
 
+#include "name_table.h"
 #include "path_find.h"
 #include "text.h"
 
@@ -219,6 +220,55 @@ static void only_regular_files_are_read(void **state) {
   arena_free(&mem);
 }
 
+// The hash of a name table without a key, as an attacker computes it.
+static uint64_t known_hash(const char *s) {
+  uint64_t h = 14695981039346656037u;
+  for (; *s != '\0'; s++)
+    h = (h ^ (unsigned char)*s) * 1099511628211u;
+  return h ^ h >> 32;
+}
+
+// Names that were chosen to meet in one slot are scattered; names that were not
+// keep the first key.  Either way they are numbered as they come.
+static void names_that_meet_are_scattered(void **state) {
+  (void)state;
+  enum { SLOTS = 2048, NAMES = 600 };
+  arena mem = {0};
+  name_table chosen = {0}, usual = {0};
+  char name[32];
+  int found = 0;
+  for (long i = 0; found < NAMES; i++) {
+    snprintf(name, sizeof name, "n%ld", i);
+    if (known_hash(name) % SLOTS != 7) continue;
+    span s = {name, strlen(name)};
+    assert_int_equal(name_table_add(&chosen, s, &mem), found);
+    found++;
+  }
+  assert_true(chosen.slot_count == SLOTS && chosen.key > 0);
+  for (int i = 0; i < NAMES; i++) {
+    span s = {chosen.names[i], strlen(chosen.names[i])};
+    assert_int_equal(name_table_find(&chosen, s), i);
+  }
+  for (int i = 0; i < 200000; i++) {
+    snprintf(name, sizeof name, "Material.%06d", i);
+    assert_int_equal(name_table_add(&usual, (span){name, strlen(name)}, &mem),
+                     i);
+  }
+  assert_int_equal(usual.key, 0);
+  arena_free(&mem);
+}
+
+// A NUL in a name counts as a blank: the same name is the same number.
+static void a_nul_in_a_name_is_a_blank(void **state) {
+  (void)state;
+  arena mem = {0};
+  name_table t = {0};
+  assert_int_equal(name_table_add(&t, (span){"a\0b", 3}, &mem), 0);
+  assert_int_equal(name_table_add(&t, (span){"a\0b", 3}, &mem), 0);
+  assert_int_equal(name_table_find(&t, (span){"a b", 3}), 0);
+  arena_free(&mem);
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(lines_end_in_three_ways),
@@ -230,6 +280,8 @@ int main(void) {
       cmocka_unit_test(files_are_found_as_they_are_meant),
       cmocka_unit_test(folders_of_paths),
       cmocka_unit_test(only_regular_files_are_read),
+      cmocka_unit_test(names_that_meet_are_scattered),
+      cmocka_unit_test(a_nul_in_a_name_is_a_blank),
   };
   return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -1,8 +1,15 @@
-// fuzz.c — one target for libFuzzer: cc -DTARGET=target_obj ...
+// fuzz.c — one target for libFuzzer or AFL++: cc -DTARGET=target_obj ...
 
 #include "targets.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+  return TARGET(data, size);
+}
+
+// AFL++ changes inputs by itself.
+#ifndef __AFL_COMPILER
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t room);
 size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t room,
                                unsigned seed);
@@ -16,7 +23,4 @@ size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t room,
   mend_part(data, size);
   return size;
 }
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-  return TARGET(data, size);
-}
+#endif
