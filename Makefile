@@ -44,7 +44,7 @@ CHAPTER_5 := $(CHAPTER_4) gl_api gl gl_make glsl raster_settings raster_block ra
              raster_pass raster_once raster
 CHAPTER_6 := $(CHAPTER_5) microfacet dfg bsdf_rough raster_rough
 CHAPTER_7 := $(CHAPTER_6) ibl_level ibl_lobe ibl_wave ibl_source ibl_methods \
-             ibl_cache ibl raster_env
+             cache_folder cache ibl_cache ibl raster_env
 CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
 CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_world vertex path_naive film shard tally first_hit render_guide render_sums \
              render_keep render
@@ -58,7 +58,7 @@ CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_spl
              wide_descent wide_flight wide_steps wide_stream wide_kernel wide_base wide_avx2 wide_avx512 wide \
              vertex_many_levels vertex_lanes vertex_lanes_facet vertex_lanes_smooth \
              vertex_many_kernel vertex_many_base vertex_many_avx2 vertex_many_avx512 vertex_many
-CHAPTER_13 := $(CHAPTER_12) plan_sight plan plan_word plan_use
+CHAPTER_13 := $(CHAPTER_12) plan_sight plan plan_word plan_use tree_cache
 CHAPTER_14 := $(CHAPTER_13) post view_state view_script view_paths view_window
 CHAPTER_15 := $(CHAPTER_14) glyph sketch plot two_means halves adaptive doubling
 CHAPTER_16 := $(CHAPTER_15) bytes digest scene_digest part part_read part_set
@@ -67,7 +67,7 @@ CHAPTERS  := 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17
 # The command line, the only floor that prints and exits.
 COMMAND   := json tonemap progress option_id option_table option cmd_shared cmd_signals \
              cmd_output cmd_tree cmd_shot cmd_plan cmd_forced cmd_raster cmd_keep cmd_render_say cmd_render_plan cmd_render cmd_merge cmd_view_say cmd_view cmd_info_scene \
-             cmd_info cmd_compare cmd_bench cmd_bench_raster cmd_ibl cmd_bench_ibl \
+             cmd_info cmd_compare cmd_bench cmd_bench_raster cmd_ibl cmd_bench_ibl cmd_cache \
              cmd_child cmd_error_run cmd_bench_error \
              help_text cmd_manual cmd_completion cmd_help main
 MODULES   := $(LIBRARY) $(COMMAND)

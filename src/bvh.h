@@ -45,7 +45,8 @@ typedef struct bvh {
   uint32_t refs;    // how many: kept, or more where leaves share triangles
   uint32_t kept, dropped;
   int depth;
-  double cost;  // SAH cost, in triangle tests per random ray
+  double cost;      // SAH cost, in triangle tests per random ray
+  double cut_rays;  // more rays repay cutting triangles; see bvh_split.h
   double seconds;
 } bvh;
 

@@ -127,9 +127,10 @@ static split_look look_at_all(const bvh *b, sah_ref *refs, const sah_box *box,
   return sum;
 }
 
-// Whether cutting triangles repays itself.
-static bool worth_cutting(const split_look *l, uint32_t kept, double rays) {
-  return l->large > 0 && rays * l->excess * RAY_SECONDS > kept * CUT_SECONDS;
+// How many rays repay cutting triangles.
+static double cut_rays_of(const split_look *l, uint32_t kept) {
+  if (l->large == 0 || !(l->excess > 0)) return INFINITY;
+  return kept * CUT_SECONDS / (l->excess * RAY_SECONDS);
 }
 
 // A node joins the tasks or the queue.
@@ -296,7 +297,8 @@ void bvh_split_build(bvh *out, const bvh *mesh, double rays, arena *mem,
                                           BVH_SPLIT_PERCENT, &refs, threads)};
   split_look look =
       look_at_all(out, b.shop.refs[0], &root.part.box, &scratch, threads);
-  if (worth_cutting(&look, out->kept, rays)) {
+  double cut_rays = cut_rays_of(&look, out->kept);
+  if (rays > cut_rays) {
     uint64_t most = (uint64_t)out->kept * BVH_SPLIT_PERCENT / 100;
     uint64_t wish = (uint64_t)look.large * PARTS;
     root.large = look.large;
@@ -313,5 +315,6 @@ void bvh_split_build(bvh *out, const bvh *mesh, double rays, arena *mem,
   }
   arena_free(&refs);
   arena_free(&scratch);
+  out->cut_rays = cut_rays;
   out->seconds = clock_seconds() - start;
 }

@@ -14,7 +14,8 @@ enum { BVH_SPLIT_PERCENT = 30 };
 // leaves of both sides, each with the box of its part.  The same hits to the
 // bit, the same tree for any number of threads.  It is bvh_build's own tree
 // where none is large (slab_large) or so few `rays` are to be traced that a
-// better tree would not repay its making; INFINITY: never mind.
+// better tree would not repay its making; INFINITY: never mind.  Sets cut_rays,
+// which is INFINITY where nothing is worth cutting.
 //
 // Source: Stich, Friedrich, Dietrich 2009, "Spatial Splits in Bounding Volume
 // Hierarchies".

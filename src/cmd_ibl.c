@@ -142,7 +142,7 @@ static int answer_all(const ibl_run *r) {
                    .all = many,
                    .roughness = q.roughness,
                    .count = many ? 0 : q.roughness_count,
-                   .use_cache = true};
+                   .use_cache = !r->o->value[OPT_NO_CACHE].given};
   if (q.irradiance || q.radiance)
     ibl_make(&b, &r->e, &need, r->mem, r->threads);
   dfg table = {0};
@@ -235,8 +235,10 @@ static int write_all(const ibl_run *r) {
     return cmd_fail(r->o, EXIT_OUTPUT, "%s: cannot be made: %s", folder,
                     strerror(errno));
   ibl b;
-  ibl_need need = {
-      .model = r->model, .diffuse = true, .all = true, .use_cache = true};
+  ibl_need need = {.model = r->model,
+                   .diffuse = true,
+                   .all = true,
+                   .use_cache = !r->o->value[OPT_NO_CACHE].given};
   ibl_make(&b, &r->e, &need, r->mem, r->threads);
   dfg table;
   dfg_build(&table, r->model, r->mem, r->threads);

@@ -109,6 +109,7 @@ static void ready_env(raster_job *job, const shot *s, arena *mem) {
   ibl made;
   ibl_need need = raster_env_need(&s->scene, model, job->any_roughness,
                                   unseen(job), s->mem);
+  need.use_cache = !s->o->value[OPT_NO_CACHE].given;
   ibl_make(&made, e, &need, s->mem, s->threads);
   job->env_seconds = made.seconds;
   job->sums = 1 + made.level_count;

@@ -234,6 +234,9 @@ static int run_path(render_job *j) {
   bool open = j->settings.spp == SPP_WITHOUT_LIMIT;
   double rays = cmd_tree_rays(s->width, s->height, open ? 0 : j->settings.spp);
   j->tree.rays = rays / (j->settings.shards > 0 ? j->settings.shards : 1);
+  const char *slash = strrchr(s->scene.path, '/');
+  if (!given(j, OPT_NO_CACHE))
+    j->tree.name = slash == NULL ? s->scene.path : slash + 1;
   cmd_tree_build(&j->tree, j->o, m, s->mem, s->threads);
   j->world.tracer = j->tree.tracer;
   choose_integrator(j);

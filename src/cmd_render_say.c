@@ -41,6 +41,7 @@ static void json_seconds(json *j, const render_job *job) {
   json_number(j, "textures", job->shot.scene.seconds_textures);
   if (job->engine == ENGINE_PATH) {
     json_number(j, "build", job->tree.seconds);
+    json_number(j, "keep", job->tree.save_seconds);
   } else {
     json_number(j, "gl", job->raster.gl_seconds);
     json_number(j, "table", job->raster.table_seconds);

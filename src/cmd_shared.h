@@ -67,6 +67,7 @@ int cmd_bench_error(const options *o);
 int cmd_ibl(const options *o);
 int cmd_bench_ibl(const options *o);
 int cmd_merge(const options *o);
+int cmd_cache(const options *o);
 int cmd_help(const options *o);
 
 // What `facet help` prints, to out.

@@ -2,7 +2,7 @@
 
 #include "cmd_tree.h"
 
-#include "bvh_split.h"
+#include "clock.h"
 
 #include <math.h>
 
@@ -16,12 +16,17 @@ double cmd_tree_rays(int width, int height, int spp) {
   return (double)width * height * (spp > 0 ? spp : SPP_GUESS) * RAYS_A_PATH;
 }
 
+// A mesh as builders of trees want it, with no tree yet.
+static bvh mesh_as_bvh(const mesh *m) {
+  return (bvh){.positions = m->positions,
+               .index = m->position_index,
+               .triangle_count = (uint32_t)m->triangle_count};
+}
+
 // The binary tree: cut triangles or not, as the word says or the rays repay.
 static void build_binary(cmd_tree *t, long long word, const mesh *m, arena *mem,
                          pool *threads) {
-  bvh of = {.positions = m->positions,
-            .index = m->position_index,
-            .triangle_count = (uint32_t)m->triangle_count};
+  bvh of = mesh_as_bvh(m);
   if (word == TREE_AUTO || word == TREE_HIGH) {
     double rays = word == TREE_HIGH ? HUGE_VAL : t->rays;
     bvh_split_build(&t->binary, &of, rays, mem, threads);
@@ -32,12 +37,42 @@ static void build_binary(cmd_tree *t, long long word, const mesh *m, arena *mem,
             coarse ? BVH_COARSE : BVH_SAH, mem, threads);
 }
 
+// Ask the cache for a wide tree; false when it must be built.  Then *c, if it
+// has a name, is what to save it under.
+static bool load_wide(cmd_tree *t, tree_cache *c, long long word, const mesh *m,
+                      arena *mem, pool *threads) {
+  double start = clock_seconds();
+  bool wide = word != TREE_BINARY && word != TREE_BRUTE;
+  if (!wide || t->name == NULL || cache_limit() == 0 ||
+      m->triangle_count < TREE_CACHE_LEAST)
+    return false;
+  t->binary = mesh_as_bvh(m);
+  *c = (tree_cache){.cuts = word == TREE_AUTO || word == TREE_HIGH,
+                    .rays = word == TREE_HIGH ? HUGE_VAL : t->rays,
+                    .name = t->name};
+  tree_cache_begin(c, &t->binary, m->position_count, threads);
+  t->from_cache = tree_cache_load(c, &t->wide, &t->binary, mem, threads);
+  t->seconds = clock_seconds() - start;
+  if (t->from_cache) t->tracer = wide_tracer(&t->wide);
+  return t->from_cache;
+}
+
+// Keep a tree that was built.
+static void save_wide(cmd_tree *t, const tree_cache *c, pool *threads) {
+  if (c->name == NULL || t->wide.nodes == NULL) return;
+  double start = clock_seconds();
+  tree_cache_save(c, &t->wide, &t->binary, cache_limit(), threads);
+  t->save_seconds = clock_seconds() - start;
+}
+
 void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
                     pool *threads) {
   long long word = o->value[OPT_BVH].words;
   bool wide = word != TREE_BINARY && word != TREE_BRUTE;
   arena scratch = {0};
-  *out = (cmd_tree){.rays = out->rays};
+  tree_cache cache = {.name = NULL};
+  *out = (cmd_tree){.rays = out->rays, .name = out->name};
+  if (load_wide(out, &cache, word, m, mem, threads)) return;
   build_binary(out, word, m, wide ? &scratch : mem, threads);
   out->seconds = out->binary.seconds;
   if (wide) wide_tree_build(&out->wide, &out->binary, mem, threads);
@@ -52,6 +87,7 @@ void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
   out->binary.nodes = NULL;
   out->binary.order = NULL;
   arena_free(&scratch);
+  save_wide(out, &cache, threads);
 }
 
 size_t cmd_tree_bytes(const cmd_tree *t) {
@@ -72,4 +108,5 @@ void cmd_tree_json(json *j, const cmd_tree *t) {
   json_count(j, "depth", (unsigned long long)depth);
   json_count(j, "dropped", t->binary.dropped);
   json_count(j, "bytes", cmd_tree_bytes(t));
+  json_flag(j, "from_cache", t->from_cache);
 }

@@ -5,6 +5,7 @@
 
 #include "cmd_shared.h"
 #include "mesh.h"
+#include "tree_cache.h"
 #include "wide.h"
 
 // A mesh made traceable, and what that cost.  The binary tree has its nodes
@@ -13,14 +14,18 @@ typedef struct cmd_tree {
   bvh binary;
   wide_tree wide;  // nodes NULL when it is not what traces
   tracer tracer;
-  double seconds;
-  double rays;  // how many are expected
+  double seconds;       // to build or to load it
+  double save_seconds;  // to put it into the cache; 0: it was not
+  double rays;          // how many are expected
+  const char *name;     // of the mesh, for the cache; NULL: do without
+  bool from_cache;
 } cmd_tree;
 
 // How many rays a picture takes, roughly; spp 0: nobody knows.
 double cmd_tree_rays(int width, int height, int spp);
 
-// `rays` of *out is given, and tells auto whether cutting triangles pays.
+// `rays` and `name` of *out are given: rays tell auto whether cutting triangles
+// pays.
 void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
                     pool *threads);
 

@@ -127,8 +127,9 @@ bool file_create(file_writer *w, const char *path, arena *mem, error *err) {
 
 bool file_commit(file_writer *w, error *err) {
   // fsync is not for pipes and terminals; there it fails with EINVAL.
-  bool ok = !ferror(w->stream) && fflush(w->stream) == 0 &&
-            (w->temporary == NULL || fsync(fileno(w->stream)) == 0);
+  bool ok =
+      !ferror(w->stream) && fflush(w->stream) == 0 &&
+      (w->temporary == NULL || w->passing || fsync(fileno(w->stream)) == 0);
   int reason = errno;
   if (fclose(w->stream) != 0 && ok) ok = false, reason = errno;
   w->stream = NULL;

@@ -26,6 +26,7 @@ typedef struct file_writer {
   const char *path;  // as the caller named it, for messages
   char *target;      // with a symbolic link at its end resolved
   char *temporary;   // beside target; NULL when written directly
+  bool passing;      // set it where the file may be lost with the system
 } file_writer;
 
 // Begin to write path.  A regular file, or one that does not exist yet, is
@@ -34,7 +35,7 @@ typedef struct file_writer {
 // are kept.  The strings live in mem.
 bool file_create(file_writer *w, const char *path, arena *mem, error *err);
 
-// Flush to the disk and take the target's place.  When any write failed, the
+// Flush to the disk (not where it is passing) and take the target's place.  When any write failed, the
 // temporary file is removed, the old file stays, and this says why.
 bool file_commit(file_writer *w, error *err);
 

@@ -59,6 +59,8 @@ const help_example help_examples[] = {
     {CMD_IBL, "facet ibl sky.hdr -o sky",
      "irradiance and blurred radiance as files, for another renderer"},
     {CMD_BENCH_IBL, "facet bench ibl sky.hdr", "how fast and how exact"},
+    {CMD_CACHE, "facet cache", "what is kept, how large it is and for what"},
+    {CMD_CACHE, "facet cache clear", "away with it"},
     {CMD_HELP, "facet help render", "the options of render"},
     {CMD_HELP, "facet help --man render", "its manual page"},
     {CMD_HELP, "facet help --completion bash",
@@ -90,7 +92,8 @@ const help_item help_items[] = {
     {"FILES", "NAME.scene",
      "Read with NAME.obj: cameras, lights, environment, film, materials."},
     {NULL, "XDG_CACHE_HOME/facet, ~/.cache/facet",
-     "Sums over environments, kept for the next run; safe to remove."},
+     "Sums over environments and trees over meshes, kept for the next run; "
+     "safe to remove, as facet cache clear does."},
     {NULL, "PREFIX/share/facet/scenes", "Scenes to start with."},
     {"ENVIRONMENT", "NO_COLOR, TERM=dumb", "No colours, no progress bar."},
     {NULL, "COLUMNS", "The width of the progress bar's line."},
@@ -99,6 +102,9 @@ const help_item help_items[] = {
     {NULL, "LP_NUM_THREADS",
      "The threads with which Mesa's software renderer draws; facet's number "
      "where it is not set."},
+    {NULL, "FACET_CACHE_MIB",
+     "The most that is kept in that folder, 256 where it is not set; 0: "
+     "nothing."},
     {NULL, "TMPDIR", "Where bench error keeps the pictures that it compares."},
     {"LIMITS", "Meshes",
      "Fewer than 2^31 vertices, normals, texture coordinates and triangles."},

@@ -20,6 +20,7 @@ static int run_command(const options *o) {
   case CMD_BENCH_RASTER: return cmd_bench_raster(o);
   case CMD_BENCH_ERROR: return cmd_bench_error(o);
   case CMD_IBL: return cmd_ibl(o);
+  case CMD_CACHE: return cmd_cache(o);
   case CMD_BENCH_IBL: return cmd_bench_ibl(o);
   case CMD_MERGE: return cmd_merge(o);
   default: return cmd_help(o);

@@ -68,6 +68,7 @@ typedef enum option_id {
   OPT_CSV,
   OPT_MAN,
   OPT_COMPLETION,
+  OPT_NO_CACHE,
   OPT_THREADS,
   OPT_EXPLAIN,
   OPT_NO_SKIP,

@@ -101,14 +101,18 @@ const command command_table[] = {
      "rough surface reflects) and ibl.json, which says how to read them.  "
      "With --eval, answers each line 'irradiance X Y Z', 'radiance X Y Z "
      "ROUGHNESS' or 'dfg NOV ROUGHNESS' of a file by a line of numbers, as a "
-     "render would see them.  What was prepared is kept in "
-     "XDG_CACHE_HOME/facet, or ~/.cache/facet: at most 256 MiB, of which what "
-     "was not used for longest goes first."},
+     "render would see them.  What was prepared is kept; see facet cache."},
     {"bench ibl", CMD_BENCH_IBL, "ENV", 1, 1,
      "compare ways to sum the light of an environment",
      "For irradiance and for radiance at some roughness values: microseconds "
      "a value, and the largest difference to the sum over all texels in units "
      "of the largest value; then the seconds to prepare everything."},
+    {"cache", CMD_CACHE, "[show|clear]", 0, 1, "show or clear what is kept",
+     "Trees over meshes and sums of the light of environments are kept from "
+     "run to run, under keys of all that they were made of: a picture is the "
+     "same without them, later.  show lists the files, the one used last "
+     "first; clear removes them.  Together they take at most 256 MiB, or "
+     "FACET_CACHE_MIB MiB; what was not used for longest goes first."},
     {"help", CMD_HELP, "[COMMAND]", 0, 2, "explain facet or a command", NULL},
     {0},
 };
@@ -322,8 +326,12 @@ const option option_table[OPTION_COUNT] = {
     [OPT_COMPLETION] = {"completion", 0, CMD_HELP, OPTION_WORD, "bash|zsh|fish",
                         .help = "print what lets this shell complete the "
                                 "command line"},
+    [OPT_NO_CACHE] =
+        {"no-cache", 0, CMD_RENDER | CMD_VIEW | CMD_IBL, OPTION_SWITCH,
+         .help = "neither read nor write the cache; the picture is the same"},
     [OPT_THREADS] =
-        {"threads", 'j', CMD_ALL & ~(CMD_COMPARE | CMD_HELP | CMD_MERGE),
+        {"threads", 'j',
+         CMD_ALL & ~(CMD_COMPARE | CMD_HELP | CMD_MERGE | CMD_CACHE),
          OPTION_WHOLE, "N", NULL, 1, 1024,
          .help = "worker threads (default: what CPU affinity, the cgroup's "
                  "quota and SLURM_CPUS_PER_TASK allow)"},

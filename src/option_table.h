@@ -21,7 +21,8 @@ enum {
   CMD_BENCH_IBL = 512,
   CMD_BENCH_ERROR = 1024,
   CMD_MERGE = 2048,
-  CMD_ALL = 4095
+  CMD_CACHE = 4096,
+  CMD_ALL = 8191
 };
 
 // A command: its one or two words, and what it wants after the options.

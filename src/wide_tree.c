@@ -227,6 +227,12 @@ static void *aligned_alloc_of(arena *mem, size_t n, size_t size) {
   return p + (128 - (uintptr_t)p % 128) % 128;
 }
 
+void wide_tree_room(wide_tree *t, arena *mem) {
+  t->nodes = aligned_alloc_of(mem, t->node_count, sizeof(wide_node));
+  t->triangles = aligned_alloc_of(mem, t->triangle_count + WIDE_LEAF,
+                                  10 * sizeof(uint32_t));
+}
+
 void wide_tree_build(wide_tree *out, const bvh *b, arena *mem, pool *threads) {
   double start = clock_seconds();
   *out = (wide_tree){0};
@@ -243,9 +249,7 @@ void wide_tree_build(wide_tree *out, const bvh *b, arena *mem, pool *threads) {
   for (uint32_t i = 0; i < c.part_count; i++)
     out->node_count += c.parts[i].next_node;
   out->triangle_count = c.costs[0].below;
-  out->nodes = aligned_alloc_of(mem, out->node_count, sizeof(wide_node));
-  out->triangles = aligned_alloc_of(mem, out->triangle_count + WIDE_LEAF,
-                                    10 * sizeof(uint32_t));
+  wide_tree_room(out, mem);
   write_above(&c);
   pool_run(threads, c.part_count, write_part, &c);
   for (uint32_t i = 0; i < c.part_count; i++)

@@ -46,6 +46,9 @@ static inline uint32_t wide_leaf_count(uint32_t child) {
 // bvh is not needed after it.  Empty when b is, or beyond WIDE_MAX_TRIANGLES.
 void wide_tree_build(wide_tree *out, const bvh *b, arena *mem, pool *threads);
 
+// Room in mem for the nodes and triangles that t counts.
+void wide_tree_room(wide_tree *t, arena *mem);
+
 // Bytes of nodes and triangles.
 size_t wide_tree_bytes(const wide_tree *t);
 
