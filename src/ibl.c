@@ -142,10 +142,10 @@ void ibl_make(ibl *out, const env *e, const ibl_need *need, arena *mem,
   for (int i = 0; i < out->level_count; i++)
     ibl_level_allocate(&out->level[i], mem);
   uint64_t limit = cache_limit();
-  bool cached = need->use_cache && limit > 0 && e->kind == ENV_MAP &&
-                e->map.pixels != NULL;
+  bool known = e->kind != ENV_SKY && e->map.pixels == NULL;
+  bool cached = need->use_cache && limit > 0 && !known;
   ibl_level all[IBL_MAX_LEVELS + 1];
-  ibl_cache_set set = {&e->map, need->model, all, levels_listed(all, out)};
+  ibl_cache_set set = {e, need->model, all, levels_listed(all, out)};
   cache_key key = {0};
   if (cached) key = ibl_cache_key_of(&set);
   out->from_cache = cached && ibl_cache_load(&set, key);

@@ -5,21 +5,22 @@
 #define IBL_CACHE_H
 
 #include "cache.h"
+#include "env.h"
 #include "ibl_level.h"
-#include "image.h"
 #include "microfacet.h"
 
-// Levels of a map; their sizes are known and their texels allocated.
+// Levels of a map or of the built-in sky; their sizes are known and their
+// texels allocated.
 typedef struct ibl_cache_set {
-  const image *map;
+  const env *e;
   pbr_model model;
   const ibl_level *levels;
   int count;
 } ibl_cache_set;
 
-// A hash of everything that the sums depend on: the map's texels, the model,
-// the levels, and the version of this code.  Rotation and scale are applied
-// when the sums are read, and are no part of it.
+// A hash of everything that the sums depend on: the map's texels or the sky in
+// some directions, the model, the levels, and the version of this code.
+// Rotation and scale are applied when the sums are read, and are no part of it.
 cache_key ibl_cache_key_of(const ibl_cache_set *s);
 
 // Fill the texels from the cache.  False when there is no file of that key, or

@@ -255,7 +255,7 @@ static void the_cache_is_honest(void **state) {
   waitpid(child, &status, 0);
   ibl_make(&b, &e, &need, &mem, NULL);
   assert_true(b.from_cache && sum_of(&a) == sum_of(&b));
-  ibl_cache_set set = {&e.map, PBR_GGX, b.level, 1};
+  ibl_cache_set set = {&e, PBR_GGX, b.level, 1};
   char *path = ibl_cache_path(ibl_cache_key_of(&set), &mem);
   FILE *f = fopen(path, "r+b");
   assert_non_null(f);
@@ -268,7 +268,7 @@ static void the_cache_is_honest(void **state) {
   assert_true(d.from_cache && sum_of(&a) == sum_of(&d));
   // Of two files the one not used for longer goes, once they take too much.
   ibl_level fewer = b.level[0];
-  ibl_cache_set other = {&e.map, PBR_REPORT, &fewer, 1};
+  ibl_cache_set other = {&e, PBR_REPORT, &fewer, 1};
   uint64_t one = ibl_level_texels(&fewer) * sizeof(vec3);
   ibl_cache_save(&other, ibl_cache_key_of(&other), 2 * one + 1000);
   assert_true(ibl_cache_load(&set, ibl_cache_key_of(&set)));
