@@ -101,6 +101,7 @@ void cmd_tree_json(json *j, const cmd_tree *t) {
   bool wide = t->wide.nodes != NULL;
   json_text(j, "kind", wide ? "wide" : "binary");
   json_count(j, "nodes", wide ? t->wide.node_count : t->binary.node_count);
+  json_count(j, "binary_nodes", t->binary.node_count);
   json_number(j, "cost", t->binary.cost);
   json_count(j, "parts", t->binary.refs - t->binary.kept);
   json_number(j, "rays_expected", t->rays);
