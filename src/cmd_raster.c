@@ -113,6 +113,7 @@ static void ready_env(raster_job *job, const shot *s, arena *mem) {
   ibl_make(&made, e, &need, s->mem, s->threads);
   job->env_seconds = made.seconds;
   job->sums = 1 + made.level_count;
+  job->sums_kept = made.from_cache;
   job->sum_bytes = (double)ibl_bytes(&made);
   job->env = raster_env_new(job->g, &made, mem);
   job->settings.ambient = raster_env_piece(&job->env);
@@ -179,6 +180,8 @@ void raster_job_note(const raster_job *job, plan *p, const shot *s) {
   plan_note(p, PLAN_TABLE, job->rough.texture != 0, job->table_seconds, 0);
   plan_note(p, PLAN_LEAN, leans, -1, 0);
   plan_note(p, PLAN_IBL, (uint64_t)job->sums, job->env_seconds, job->sum_bytes);
+  if (job->sums_kept)
+    p->line[PLAN_IBL].why = "those in use; kept by another run";
   plan_note(p, PLAN_TREE, 0, 0, 0);
   cmd_forced_tables(p, s);
   cmd_forced_tree(p, s);

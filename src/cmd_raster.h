@@ -24,6 +24,7 @@ typedef struct raster_job {
   raster_env env;        // light from the environment, in the context
   double env_seconds;    // to prepare it
   int sums;              // of its light that were prepared
+  bool sums_kept;        // by another run
   double sum_bytes;
   bool any_roughness;  // materials may change after the upload
   const plan *plan;    // NULL: everything is needed

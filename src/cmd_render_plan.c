@@ -29,6 +29,8 @@ void render_plan_note_paths(render_job *j) {
   const cmd_tree *t = &j->tree;
   const light_env *e = &j->lights.env;
   plan_note(p, PLAN_TREE, 1, t->seconds, (double)cmd_tree_bytes(t));
+  if (t->from_cache)
+    p->line[PLAN_TREE].why = "rays ask it; kept by another run";
   plan_note(p, PLAN_TRIANGLES,
             j->shot.scene.mesh.triangle_count - t->binary.dropped, -1, 0);
   plan_note(p, PLAN_PATHS, r->paths.followed, r->seconds, 0);

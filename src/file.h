@@ -35,8 +35,9 @@ typedef struct file_writer {
 // are kept.  The strings live in mem.
 bool file_create(file_writer *w, const char *path, arena *mem, error *err);
 
-// Flush to the disk (not where it is passing) and take the target's place.  When any write failed, the
-// temporary file is removed, the old file stays, and this says why.
+// Flush to the disk (not where it is passing) and take the target's place. When
+// any write failed, the temporary file is removed, the old file stays, and this
+// says why.
 bool file_commit(file_writer *w, error *err);
 
 // Give up: close, and remove the temporary file.
