@@ -129,7 +129,7 @@ static split_look look_at_all(const bvh *b, sah_ref *refs, const sah_box *box,
 
 // How many rays repay cutting triangles.
 static double cut_rays_of(const split_look *l, uint32_t kept) {
-  if (l->large == 0 || !(l->excess > 0)) return INFINITY;
+  if (l->large == 0 || !(l->excess > 0)) return HUGE_VAL;
   return kept * CUT_SECONDS / (l->excess * RAY_SECONDS);
 }
 
