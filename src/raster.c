@@ -25,11 +25,16 @@ static void copy_materials(raster_stock *r, arena *mem) {
     r->materials[i] = r->scene->materials[i];
 }
 
-static void upload_env(raster_stock *r) {
+// What ambient.glsl reads; where another file stands in its place, nobody does.
+static void ready_ambient(raster_stock *r) {
   const env *e = &r->scene->env;
-  if (e->kind == ENV_NONE) return;
+  if (e->kind == ENV_NONE || r->set.ambient.shaders[0] != NULL) return;
   r->above = raster_irradiance(e, (vec3){0, 1, 0});
   r->below = raster_irradiance(e, (vec3){0, -1, 0});
+}
+
+static void upload_env(raster_stock *r) {
+  const env *e = &r->scene->env;
   if (e->kind != ENV_MAP || e->map.pixels == NULL) return;
   r->env_map =
       gl_texture_new(r->g, &(gl_texture_spec){.width = e->map.width,
@@ -118,6 +123,7 @@ static bool upload(raster *r, arena *mem, error *err) {
   s->space = space_of(s);
   s->maps = raster_maps_upload(s->g, s->scene, mem);
   copy_materials(s, mem);
+  ready_ambient(s);
   upload_env(s);
   gl_functions(s->g)->GenVertexArrays(1, &s->no_vertices);
   s->programs = (raster_programs){.g = s->g,
@@ -254,6 +260,7 @@ bool raster_change(raster *r, const raster_settings *set, error *err) {
   now.x0 = old.x0, now.y0 = old.y0, now.x1 = old.x1, now.y1 = old.y1;
   raster_programs_free(&s->programs);
   s->set = now;
+  ready_ambient(s);
   return ready_shadows(r, err) && ready_programs(s, err);
 }
 
