@@ -67,7 +67,7 @@ CHAPTERS  := 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17
 # The command line, the only floor that prints and exits.
 COMMAND   := json tonemap progress option_id option_table option cmd_shared cmd_signals \
              cmd_output cmd_tree cmd_shot cmd_plan cmd_forced cmd_raster cmd_keep cmd_render_say cmd_render_plan cmd_render cmd_merge cmd_view_say cmd_view cmd_info_scene \
-             cmd_info cmd_compare cmd_bench cmd_bench_raster cmd_ibl cmd_bench_ibl cmd_cache \
+             cmd_info_part cmd_info cmd_compare cmd_bench cmd_bench_raster cmd_ibl cmd_bench_ibl cmd_cache \
              cmd_child cmd_error_run cmd_bench_error \
              help_text cmd_manual cmd_completion cmd_help main
 MODULES   := $(LIBRARY) $(COMMAND)

@@ -1,5 +1,6 @@
 // cmd_info.c — facet info: what is in a file.
 
+#include "cmd_info_part.h"
 #include "cmd_info_scene.h"
 
 #include "file.h"
@@ -128,7 +129,9 @@ int cmd_info(const options *o) {
     const char *path = o->operands[i];
     bool mesh = strcmp(path, "-") == 0 || cmd_has_suffix(path, ".obj") ||
                 cmd_has_suffix(path, ".scene");
-    int now = mesh ? info_scene(o, path) : info_picture(o, path);
+    int now = mesh                            ? info_scene(o, path)
+              : cmd_has_suffix(path, ".part") ? info_part(o, path)
+                                              : info_picture(o, path);
     if (now != EXIT_DONE) code = now;
   }
   return code;

@@ -50,8 +50,9 @@ const command command_table[] = {
      "of keys in a script: w s a d q z up down left right shift 1 2 3 4 0 "
      "space p f12 h esc."},
     {"info", CMD_INFO, "FILE...", 1, 1000000, "say what a file holds",
-     "FILE is an .obj, a .scene, a picture, or - for an OBJ on standard "
-     "input.  For meshes and scenes: counts, bounds, area, and for each "
+     "FILE is an .obj, a .scene, a picture, a .part, or - for an OBJ on "
+     "standard input.  For meshes and scenes: counts, bounds, area, and for "
+     "each "
      "material the rule that decided how it is shaded."},
     {"compare", CMD_COMPARE, "A B", 2, 2, "compare picture A with reference B",
      "PNG, JPEG and TGA files are compared as they are stored, divided by "

@@ -50,9 +50,9 @@ static void write_seconds(char *text, size_t size, double seconds) {
 static void write_state(char *text, size_t size, const render_progress *p) {
   char gone[32], left[32], noise[32] = "";
   write_seconds(gone, sizeof gone, p->seconds);
-  bool known = p->done > 1e-6;
-  if (known)
-    write_seconds(left, sizeof left, p->seconds * (1 - p->done) / p->done);
+  double now = p->done - p->begun;
+  bool known = now > 1e-6;
+  if (known) write_seconds(left, sizeof left, p->seconds * (1 - p->done) / now);
   if (p->error > 0) snprintf(noise, sizeof noise, ", error %.2g", p->error);
   double rate = p->seconds > 0 ? (double)p->samples / p->seconds : 0;
   snprintf(text, size, "%3.0f %%  %s, %s left, %.2f M samples/s%s",

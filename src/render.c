@@ -52,7 +52,7 @@ typedef struct job {
   double before, during;  // samples of all pixels: taken, and in this pass
   double pass_start;
   atomic_int done;  // its finished tiles
-  double start, last_progress, error;
+  double start, last_progress, error, begun;
   integrator by;
   worker *team;
   int workers;
@@ -143,8 +143,9 @@ static double share_done(const job *j, double now) {
 
 static void tell_progress(job *j, double now) {
   render_progress p = {.done = share_done(j, now),
+                       .begun = j->begun,
                        .seconds = now - j->start,
-                       .samples = (uint64_t)samples_done(j),
+                       .samples = (uint64_t)samples_done(j) - j->kept.samples,
                        .error = j->error};
   j->last_progress = now;
   j->set->progress(j->set->progress_context, &p);
@@ -325,6 +326,9 @@ static void ready_sums(job *j, arena *mem) {
   j->before = (double)j->kept.samples;
   j->first = j->sums.taken;
   j->end = (int)j->first;
+  if (j->kept.samples == 0) return;
+  j->error = error_so_far(j);
+  j->begun = share_done(j, j->start);
 }
 
 // The window, and which of its tiles are to be rendered.

@@ -21,10 +21,11 @@ typedef enum render_shading {
 } render_shading;
 
 typedef struct render_progress {
-  double done;     // share of the work, 0..1
-  double seconds;  // since rendering began
-  uint64_t samples;
-  double error;  // estimated relative error of the picture, 0: not known
+  double done;       // share of the work, 0..1
+  double begun;      // of that, before this run
+  double seconds;    // since rendering began
+  uint64_t samples;  // of this run
+  double error;      // estimated relative error of the picture, 0: not known
 } render_progress;
 
 typedef struct render_settings {

@@ -118,6 +118,12 @@ wait $! 2>/dev/null
 exits 0 "sent again, it goes on" render --spp 64 --shard 2/3 --checkpoint c2.part --resume -o t2.part
 exits 0 "and nothing is missing" merge t3.part t2.part t1.part -o late.pfm
 ok "the picture is that of a single run" cmp one.pfm late.pfm
+"$facet" info --json t2.part >"$T/out"
+ok "info says of what it is a part" python3 -c '
+import json
+j = json.load(open("out"))
+assert (j["shard"], j["shards"], j["spp"], j["complete"], j["tiles"], j["samples_a_pixel"]) == (2, 3, 64, True, 5, 64), j
+assert j["window"] == [0, 0, 72, 40] and j["key"]["seed"] == "0" and j["key"]["film"] == "72x40"'
 exits 3 "shard 1 cannot go on from shard 2" render --spp 64 --shard 1/3 --checkpoint c2.part --resume -o x.part
 says "it is shard 2/3, not 1/3" "says why"
 exits 2 "a part is not written over" merge t1.part t2.part t3.part -o t1.part
