@@ -84,8 +84,7 @@ static const char *word_of(const cmd_keep *k, option_id id) {
   return word;
 }
 
-// All that the samples of a pixel depend on, as lines.  Who is asked for light
-// is named by what it is, so that the default and its name are one.
+// All that the samples of a pixel depend on, as lines.
 static const char *write_key(const cmd_keep *k, const shot *sh,
                              const render_settings *s) {
   const film_box *w = &k->part.window;
@@ -98,7 +97,7 @@ static const char *write_key(const cmd_keep *k, const shot *sh,
       "lights %s\npbr-model %s\n",
       FACET_VERSION, s->width, s->height, w->x0, w->y0, w->x1, w->y1,
       k->part.films >> PART_EVEN & 1 ? "yes" : "no", word_of(k, OPT_SHADING),
-      s->aovs, (unsigned long long)s->seed, naive ? "naive" : "mis",
+      s->aovs, (unsigned long long)s->seed, word_of(k, OPT_INTEGRATOR),
       naive ? "random" : word_of(k, OPT_SAMPLER),
       (int)k->o->value[OPT_MAX_DEPTH].whole[0], word_of(k, OPT_LIGHTS),
       word_of(k, OPT_PBR_MODEL));

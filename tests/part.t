@@ -208,7 +208,7 @@ other "one digit of the scene" "sed -i 's/intensity 12/intensity 13/' a.scene" l
 other "another camera" "sed -i 's/eye 2/eye 2.001/' a.scene" camera
 other "one byte of a texture" "printf '\\001' | dd of=a.pfm bs=1 seek=40 conv=notrunc 2>/dev/null" textures
 other "one byte of the sky" "printf '\\001' | dd of=sky.pfm bs=1 seek=40 conv=notrunc 2>/dev/null" environment
-for words in "seed 3" "max-depth 4" "sampler random" "integrator naive" "lights off" "pbr-model report" \
+for words in "seed 3" "max-depth 4" "sampler random" "integrator naive" "integrator mis" "lights off" "pbr-model report" \
   "shading albedo" "aov normal"; do
   other "--$words" : "${words%% *} is" "--$words"
 done
