@@ -33,10 +33,12 @@ typedef struct level_chunk {
   sah_bins bins;
 } level_chunk;
 
-// A worker's memory: nodes of the task at hand, two a triangle, and those of
+// A worker's memory: nodes of the task at hand, two a triangle, its refs once
+// more, and nodes of
 // finished tasks, which are about two for three.
 typedef struct task_room {
   bvh_node *nodes;
+  sah_ref *spare;
   arena done;
 } task_room;
 
@@ -115,14 +117,19 @@ static void move_chunk(void *context, size_t item, int worker) {
   (void)worker;
   builder *b = context;
   level_chunk *c = &b->chunks[item];
-  uint32_t to[2] = {c->to[0], c->to[1]};
-  c->centres[0] = c->centres[1] = sah_box_empty();
+  bvh_part side[2] = {{.begin = c->to[0]}, {.begin = c->to[1]}};
+  sah_ref *left = b->spare + c->to[0], *right = b->spare + c->to[1];
   for (uint32_t i = c->begin; i < c->end; i++) {
     const sah_ref *r = &b->refs[i];
-    int side = bvh_cut_left(&c->node->cut, &c->node->part, r, i) ? 0 : 1;
-    b->spare[to[side]++] = *r;
-    sah_box_join_centre(&c->centres[side], &r->box);
+    bool goes_left = bvh_cut_left(&c->node->cut, &c->node->part, r, i);
+    *(goes_left ? left : right) = *r;
+    left += goes_left;
+    right += !goes_left;
   }
+  side[0].end = (uint32_t)(left - b->spare);
+  side[1].end = (uint32_t)(right - b->spare);
+  for (int k = 0; k < 2; k++)
+    c->centres[k] = bvh_part_centres(b->spare, &side[k]);
 }
 
 // A finished part joins the tasks or the next level.
@@ -223,6 +230,7 @@ static void run_task(void *context, size_t item, int worker) {
   bvh_task *t = &b->tasks[item];
   task_room *room = &b->rooms[worker];
   t->nodes = room->nodes;
+  t->spare = room->spare;
   bvh_task_run(t);
   t->nodes = ARENA_NEW(&room->done, bvh_node, t->node_count);
   memcpy(t->nodes, room->nodes, t->node_count * sizeof *t->nodes);
@@ -233,9 +241,11 @@ static void run_task(void *context, size_t item, int worker) {
 static void make_rooms(builder *b, uint32_t n, arena *scratch) {
   size_t workers = (size_t)pool_threads(b->threads);
   b->rooms = ARENA_NEW(scratch, task_room, workers);
-  for (size_t i = 0; i < workers; i++)
-    b->rooms[i].nodes =
-        ARENA_NEW(scratch, bvh_node, 2 * (size_t)smaller(n, b->small));
+  size_t most = smaller(n, b->small);
+  for (size_t i = 0; i < workers; i++) {
+    b->rooms[i].nodes = ARENA_NEW(scratch, bvh_node, 2 * most);
+    b->rooms[i].spare = ARENA_NEW(scratch, sah_ref, most);
+  }
 }
 
 // Node `from` of task k as a node of the finished tree: children move to
@@ -283,21 +293,31 @@ static void build_tasks(builder *b, arena *mem, arena *refs, arena *scratch) {
     arena_free(&b->rooms[i].done);
 }
 
+void bvh_build_source(bvh *out, const bvh_source *from, arena *mem,
+                      pool *threads) {
+  arena scratch = {0};
+  builder b = {.out = out,
+               .method = from->method,
+               .threads = threads,
+               .refs = from->refs};
+  if (out->kept > 0) {
+    build_top(&b, &from->root, from->mem, &scratch);
+    build_tasks(&b, mem, from->mem, &scratch);
+    out->cost = bvh_cost(out);
+  }
+  arena_free(from->mem);
+  arena_free(&scratch);
+}
+
 void bvh_build(bvh *out, const vec3 *positions, const uint32_t *index,
                uint32_t triangle_count, bvh_method method, arena *mem,
                pool *threads) {
   double start = clock_seconds();
   *out = (bvh){
       .positions = positions, .index = index, .triangle_count = triangle_count};
-  arena refs = {0}, scratch = {0};
-  builder b = {.out = out, .method = method, .threads = threads};
-  bvh_part root = bvh_read(&b.refs, out, 0, &refs, threads);
-  if (out->kept > 0) {
-    build_top(&b, &root, &refs, &scratch);
-    build_tasks(&b, mem, &refs, &scratch);
-    out->cost = bvh_cost(out);
-  }
-  arena_free(&refs);
-  arena_free(&scratch);
+  arena refs = {0};
+  bvh_source from = {.method = method, .mem = &refs};
+  from.root = bvh_read(&from.refs, out, 0, &refs, threads);
+  bvh_build_source(out, &from, mem, threads);
   out->seconds = clock_seconds() - start;
 }

@@ -2,6 +2,8 @@
 
 #include "bvh_part.h"
 
+#include <string.h>
+
 // A leaf of the median method: nothing is priced, so the size decides.
 enum { MEDIAN_LEAF = 4 };
 
@@ -45,7 +47,8 @@ bool bvh_cut_choose(bvh_cut *cut, const bvh_part *p, const sah_bins *bins,
   }
   if (method == BVH_COARSE && n <= BVH_COARSE_LEAF) return false;
   double area = sah_half_area(&p->box);
-  if (cut->grid.bins > 0) cut->split = sah_best_split(bins, &cut->grid, area);
+  if (cut->grid.bins > 0)
+    cut->split = sah_best_split(bins, &cut->grid, &p->box);
   if (n > BVH_MAX_LEAF) return true;
   return cut->split.axis >= 0 && cut->split.cost < area * n;
 }
@@ -55,6 +58,18 @@ bvh_node bvh_node_of(const sah_box *b, uint32_t first, uint32_t count) {
                     first,
                     {b->hi[0], b->hi[1], b->hi[2]},
                     count};
+}
+
+sah_box bvh_part_centres(const sah_ref *refs, const bvh_part *p) {
+  sah_box all = sah_box_empty();
+  sah_lanes lo = sah_load(all.lo), hi = sah_load(all.hi);
+  for (uint32_t i = p->begin; i < p->end; i++) {
+    sah_lanes c = sah_centre(&refs[i].box);
+    lo = sah_min(c, lo);
+    hi = sah_max(c, hi);
+  }
+  sah_grow(&all, lo, hi);
+  return all;
 }
 
 // Halves by position: only the bounds must be found.
@@ -72,26 +87,24 @@ static void part_in_halves(const bvh_part *p, const sah_ref *refs,
   }
 }
 
-// Left ones to the front, right ones to the back, in place.
-static void part_by_cut(const bvh_part *p, const bvh_cut *cut, sah_ref *refs,
-                        bvh_part child[2]) {
-  sah_box left = sah_box_empty(), right = left;
-  uint32_t i = p->begin, j = p->end;
-  while (i < j) {
-    if (bvh_cut_left(cut, p, &refs[i], i)) {
-      sah_box_join_centre(&left, &refs[i++].box);
-    } else {
-      sah_ref r = refs[i];
-      refs[i] = refs[--j];
-      refs[j] = r;
-      sah_box_join_centre(&right, &r.box);
-    }
+// Left ones to the front, right ones behind them, both in their order; every
+// ref is written to both sides, so that the processor need not guess.
+static void part_by_cut(const bvh_task *t, const bvh_part *p,
+                        const bvh_cut *cut, bvh_part child[2]) {
+  sah_ref *left = t->refs + p->begin, *right = t->spare;
+  for (uint32_t i = p->begin; i < p->end; i++) {
+    sah_ref r = t->refs[i];
+    size_t goes_left = bvh_cut_left(cut, p, &r, i);
+    *left = *right = r;
+    left += goes_left;
+    right += 1 - goes_left;
   }
-  child[0].end = child[1].begin = i;
+  memcpy(left, t->spare, (size_t)(right - t->spare) * sizeof *left);
+  child[0].end = child[1].begin = (uint32_t)(left - t->refs);
   child[0].box = cut->split.left;
   child[1].box = cut->split.right;
-  child[0].centres = left;
-  child[1].centres = right;
+  for (int side = 0; side < 2; side++)
+    child[side].centres = bvh_part_centres(t->refs, &child[side]);
 }
 
 // Make node p an inner node and its two parts; false when it became a leaf.
@@ -116,7 +129,7 @@ static bool task_split(bvh_task *t, const bvh_part *p, bvh_part child[2]) {
   if (cut.split.axis < 0)
     part_in_halves(p, t->refs, child);
   else
-    part_by_cut(p, &cut, t->refs, child);
+    part_by_cut(t, p, &cut, child);
   return true;
 }
 

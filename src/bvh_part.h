@@ -34,16 +34,22 @@ static inline bool bvh_cut_left(const bvh_cut *cut, const bvh_part *p,
                                 const sah_ref *ref, uint32_t position) {
   if (cut->split.axis < 0)
     return position - p->begin < (p->end - p->begin + 1) / 2;
-  return sah_slices_of(&cut->grid, &ref->box)[cut->split.axis] <=
-         cut->split.after;
+  // sah_slices_of along one axis, without the rounding down.
+  int k = cut->split.axis;
+  float centre = 0.5f * ref->as.lo[k] + 0.5f * ref->as.hi[k];
+  float x = (centre - cut->grid.lo[k]) * cut->grid.scale[k];
+  return x < (float)(cut->split.after + 1);
 }
 
+// The bounds of the centres of a part's refs.
+sah_box bvh_part_centres(const sah_ref *refs, const bvh_part *p);
+
 // A subtree for one thread: refs and root are given, nodes has room for two a
-// ref.  On return the root is nodes[0], inner nodes count from there, leaves
-// count in the array of refs, which is reordered.
+// ref, spare for each once.  On return the root is nodes[0], inner nodes count
+// from there, leaves count in the array of refs, which is reordered.
 typedef struct bvh_task {
   bvh_part root;
-  sah_ref *refs;
+  sah_ref *refs, *spare;
   bvh_method method;
   bvh_node *nodes;
   uint32_t node_count;

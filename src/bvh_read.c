@@ -2,6 +2,7 @@
 
 #include "bvh_read.h"
 
+#include <float.h>
 #include <string.h>
 
 // So many triangles are read in one go.
@@ -20,10 +21,8 @@ typedef struct reading {
   sah_ref *refs;
 } reading;
 
-// Whether a triangle can be hit: its corners are finite and span an area.
-static bool triangle_kept(const vec3 p[3]) {
-  if (!vec3_finite(p[0]) || !vec3_finite(p[1]) || !vec3_finite(p[2]))
-    return false;
+// Whether a finite triangle spans an area, in double precision.
+static bool spans_area(const vec3 p[3]) {
   double ax = (double)p[1].x - (double)p[0].x,
          ay = (double)p[1].y - (double)p[0].y,
          az = (double)p[1].z - (double)p[0].z;
@@ -33,16 +32,44 @@ static bool triangle_kept(const vec3 p[3]) {
   return ay * bz != az * by || az * bx != ax * bz || ax * by != ay * bx;
 }
 
-// Read triangle t into r; false when it is dropped.
+static inline sah_lanes lanes_of(vec3 p) {
+  return (sah_lanes){p.x, p.y, p.z, 0};
+}
+
+// x, y and z moved on by one lane.
+static inline sah_lanes turned(sah_lanes v) {
+  return (sah_lanes){v[1], v[2], v[0], 0};
+}
+
+static inline sah_lanes lanes_abs(sah_lanes v) {
+  return (sah_lanes)((sah_slices)v & INT32_MAX);
+}
+
+// Whether single precision knows that a and b, each rounded once, are not
+// parallel: the products of their cross product differ by more than all
+// roundings together, and by more than what underflow may do.
+static inline bool surely_apart(sah_lanes a, sah_lanes b) {
+  const sah_lanes some = {0x1p-20f, 0x1p-20f, 0x1p-20f, 1};
+  const sah_lanes least = {FLT_MIN, FLT_MIN, FLT_MIN, FLT_MIN};
+  sah_lanes u = a * turned(b), v = turned(a) * b;
+  sah_slices m =
+      lanes_abs(u - v) > some * (lanes_abs(u) + lanes_abs(v)) + least;
+  return (m[0] | m[1] | m[2]) != 0;
+}
+
+// Read triangle t into r; false when it is dropped: a corner is not finite or
+// it has no area.
 static bool ref_of_triangle(const bvh *b, uint32_t t, sah_ref *r) {
   const uint32_t *v = b->index + 3 * (size_t)t;
   vec3 p[3] = {b->positions[v[0]], b->positions[v[1]], b->positions[v[2]]};
-  if (!triangle_kept(p)) return false;
-  r->box = sah_box_empty();
-  for (int i = 0; i < 3; i++) {
-    sah_box corner = {{p[i].x, p[i].y, p[i].z}, {p[i].x, p[i].y, p[i].z}};
-    sah_box_join(&r->box, &corner);
-  }
+  sah_lanes c[3] = {lanes_of(p[0]), lanes_of(p[1]), lanes_of(p[2])};
+  sah_slices finite = (c[0] - c[0]) + (c[1] - c[1]) + (c[2] - c[2]) == 0;
+  if ((finite[0] & finite[1] & finite[2]) == 0) return false;
+  if (!surely_apart(c[1] - c[0], c[2] - c[0]) && !spans_area(p)) return false;
+  sah_lanes lo = sah_min(sah_min(c[0], c[1]), c[2]);
+  sah_lanes hi = sah_max(sah_max(c[0], c[1]), c[2]);
+  memcpy(r->box.lo, &lo, sizeof lo);
+  memcpy(r->box.hi, &hi, sizeof hi);
   r->as.triangle = t;
   return true;
 }

@@ -11,4 +11,17 @@
 bvh_part bvh_read(sah_ref **refs, bvh *b, uint32_t percent, arena *mem,
                   pool *threads);
 
+// Refs that have been read, the root over them, how to cut it, and the arena
+// of the refs, which is freed as soon as they are not needed.
+typedef struct bvh_source {
+  sah_ref *refs;
+  bvh_part root;
+  bvh_method method;
+  arena *mem;
+} bvh_source;
+
+// bvh_build of what bvh_read has counted in *out.
+void bvh_build_source(bvh *out, const bvh_source *from, arena *mem,
+                      pool *threads);
+
 #endif

@@ -287,12 +287,11 @@ static void make_room(split_builder *b, uint32_t room, arena *refs_mem,
 void bvh_split_build(bvh *out, const bvh *mesh, double rays, arena *mem,
                      pool *threads) {
   double start = clock_seconds();
-  bvh of = {.positions = mesh->positions,
-            .index = mesh->index,
-            .triangle_count = mesh->triangle_count};
   arena refs = {0}, scratch = {0};
   split_builder b = {.out = out, .shop = {.b = out, .threads = threads}};
-  *out = of;
+  *out = (bvh){.positions = mesh->positions,
+               .index = mesh->index,
+               .triangle_count = mesh->triangle_count};
   bvh_split_node root = {.part = bvh_read(&b.shop.refs[0], out,
                                           BVH_SPLIT_PERCENT, &refs, threads)};
   split_look look =
@@ -309,9 +308,8 @@ void bvh_split_build(bvh *out, const bvh *mesh, double rays, arena *mem,
     build_tasks(&b, mem, &refs, &scratch);
     out->cost = bvh_cost(out);
   } else {
-    arena_free(&refs);
-    bvh_build(out, of.positions, of.index, of.triangle_count, BVH_COARSE, mem,
-              threads);
+    bvh_source from = {b.shop.refs[0], root.part, BVH_COARSE, &refs};
+    bvh_build_source(out, &from, mem, threads);
   }
   arena_free(&refs);
   arena_free(&scratch);

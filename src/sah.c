@@ -82,22 +82,97 @@ static void fill_sides(sah_split *split, const sah_bins *s, const sah_grid *g) {
   }
 }
 
-sah_split sah_best_split(const sah_bins *s, const sah_grid *g,
-                         double node_area) {
-  sah_split best = {.axis = -1, .cost = HUGE_VAL};
-  for (int axis = 0; axis < 3; axis++) {
-    double cost[SAH_MAX_BINS];
-    if (!(g->scale[axis] > 0)) continue;
-    sah_costs(s, g, axis, cost);
-    for (int i = 0; i < g->bins - 1; i++) {
-      if (!(cost[i] < best.cost)) continue;
-      best.axis = axis;
-      best.after = i;
-      best.cost = cost[i];
-    }
+// What lies on one side of a cut along each axis.
+typedef struct sah_side {
+  sah_lanes lo[3], hi[3];
+  sah_slices count;
+} sah_side;
+
+static sah_side empty_side(void) {
+  const float inf = INFINITY;
+  const sah_lanes above = {inf, inf, inf, inf};
+  return (sah_side){{above, above, above}, {-above, -above, -above}, {0}};
+}
+
+static inline void side_grow(sah_side *side, const sah_box *b, int axis) {
+  side->lo[axis] = sah_min(sah_load(b->lo), side->lo[axis]);
+  side->hi[axis] = sah_max(sah_load(b->hi), side->hi[axis]);
+}
+
+// Slice i of each axis joins a side.
+static inline void side_add(sah_side *side, const sah_bins *s, int i) {
+  side_grow(side, &s->box[0][i], 0);
+  side_grow(side, &s->box[1][i], 1);
+  side_grow(side, &s->box[2][i], 2);
+  side->count += (sah_slices){(int32_t)s->count[0][i], (int32_t)s->count[1][i],
+                              (int32_t)s->count[2][i], 0};
+}
+
+// Half the area times the number of triangles, a lane an axis, in units of
+// 1 / scale squared; infinite or NaN where there are none.
+static inline sah_lanes side_prices(const sah_side *side, sah_lanes scale) {
+  sah_lanes a = side->hi[0] - side->lo[0], b = side->hi[1] - side->lo[1];
+  sah_lanes c = side->hi[2] - side->lo[2];
+  sah_lanes x = scale * (sah_lanes){a[0], b[0], c[0], 0};
+  sah_lanes y = scale * (sah_lanes){a[1], b[1], c[1], 0};
+  sah_lanes z = scale * (sah_lanes){a[2], b[2], c[2], 0};
+  return (x * y + y * z + z * x) *
+         __builtin_convertvector(side->count, sah_lanes);
+}
+
+// By what to multiply the sides of a node so that no area in it overflows.
+static float side_scale(const sah_box *node) {
+  float longest = 0;
+  for (int k = 0; k < 3; k++)
+    longest = fmaxf(longest, node->hi[k] - node->lo[k]);
+  float scale = 1 / longest;
+  return isfinite(scale) ? scale : 1;
+}
+
+// The cheapest of the cuts along each axis, a lane each.
+typedef struct sah_cheapest {
+  sah_lanes price;
+  sah_slices after;
+} sah_cheapest;
+
+// Two sweeps over the slices of all axes: from the right, what lies behind
+// each cut; from the left, what lies before it, and the sum.
+static sah_cheapest cheapest_cuts(const sah_bins *s, int bins,
+                                  sah_lanes scale) {
+  sah_lanes behind[SAH_MAX_BINS];
+  sah_side right = empty_side(), left = right;
+  for (int i = bins - 1; i > 0; i--) {
+    side_add(&right, s, i);
+    behind[i - 1] = side_prices(&right, scale);
   }
-  best.cost += SAH_NODE_COST * node_area;
-  if (best.axis >= 0) fill_sides(&best, s, g);
+  sah_cheapest best = {{INFINITY, INFINITY, INFINITY, INFINITY}, {0}};
+  for (int i = 0; i < bins - 1; i++) {
+    side_add(&left, s, i);
+    sah_lanes price = side_prices(&left, scale) + behind[i];
+    sah_slices less = price < best.price;
+    best.price = (sah_lanes)(((sah_slices)price & less) |
+                             ((sah_slices)best.price & ~less));
+    best.after = (best.after & ~less) | ((sah_slices){i, i, i, i} & less);
+  }
+  return best;
+}
+
+sah_split sah_best_split(const sah_bins *s, const sah_grid *g,
+                         const sah_box *node) {
+  float unit = side_scale(node), least = INFINITY;
+  sah_split best = {.axis = -1, .cost = HUGE_VAL};
+  sah_cheapest cut =
+      cheapest_cuts(s, g->bins, (sah_lanes){unit, unit, unit, unit});
+  for (int axis = 0; axis < 3; axis++) {
+    if (!(g->scale[axis] > 0) || !(cut.price[axis] < least)) continue;
+    least = cut.price[axis];
+    best.axis = axis;
+    best.after = cut.after[axis];
+  }
+  if (best.axis < 0) return best;
+  best.cost = (double)least / ((double)unit * (double)unit) +
+              SAH_NODE_COST * sah_half_area(node);
+  fill_sides(&best, s, g);
   return best;
 }
 

@@ -61,9 +61,10 @@ void sah_bins_add(sah_bins *s, const sah_grid *g, const sah_ref *refs,
                   size_t n);
 void sah_bins_join(sah_bins *s, const sah_grid *g, const sah_bins *other);
 
-// The cheapest cut along any axis; among equals the first.
+// The cheapest cut along any axis of a node with the given box; among equals
+// the first.  Prices are compared in single precision.
 sah_split sah_best_split(const sah_bins *s, const sah_grid *g,
-                         double node_area);
+                         const sah_box *node);
 
 // The cost of every cut along one axis: cost[i] for the cut behind slice i, in
 // the units of sah_split, infinite where a side is empty.
