@@ -478,7 +478,7 @@ static void draw_cost(output *o) {
   double area = sah_half_area(&box);
   // This figure is about one axis.
   g.scale[1] = g.scale[2] = 0;
-  sah_split best = sah_best_split(&bins, &g, area);
+  sah_split best = sah_best_split(&bins, &g, &box);
   image im = paper(&o->mem, 480, 360);
   plot scene = {im, 48, 6, 420, 118, 0, 1, 0, 0.62f};
   plot p = {im, 48, 140, 420, 180, 0, 1, 0, 1};
