@@ -121,7 +121,7 @@ def row(title, files, args, code, says=(), never=(), most=None):
 def paths():
     """Names that leave the folder of the scene, and those that do not."""
     out = {"out/m.mtl": MTL, "out/t.png": png(), "out/a.obj": USES, "out/e.hdr": hdr()}
-    quiet = ("warning", "error")
+    quiet = ("warning:", "facet: error:")
     for title, name in [("a parent", "../out/m.mtl"), ("an absolute path", "HOME/out/m.mtl"),
                         ("back-slashes", "..\\out\\m.mtl"), ("down and up", "sub/../../out/m.mtl"),
                         ("dots", "./.././out/m.mtl"), ("words of a line", "x.mtl ../out/m.mtl")]:
