@@ -74,7 +74,7 @@ static inline void check_mesh(const mesh *m) {
 }
 
 // The first byte says how small the pieces are in which the text is parsed, so
-// that a few bytes have several; from 128 on there is one.
+// that a few bytes have up to four; from 128 on there is one.
 static inline int target_obj(const uint8_t *data, size_t size) {
   arena mem = {0};
   report r = {.mem = &mem};
@@ -83,7 +83,7 @@ static inline int target_obj(const uint8_t *data, size_t size) {
   if (size == 0) return 0;
   obj_request q = {.path = "f.obj",
                    .text = {(const char *)data + 1, size - 1},
-                   .piece_bytes = data[0] < 128 ? data[0] + size / 32 : 0};
+                   .piece_bytes = data[0] < 128 ? data[0] + size / 4 : 0};
   if (obj_read_request(&m, &q, &mem, &r, &err)) {
     check_mesh(&m);
     normals_generate(&m, NORMALS_AUTO, 60, &mem, NULL);
