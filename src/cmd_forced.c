@@ -60,7 +60,8 @@ void cmd_forced_tables(plan *p, const shot *s) {
     STAGES[i].force(p, s, &once);
     arena_free(&once);
     double before = l->seconds > 0 ? l->seconds : 0;
-    plan_note(p, STAGES[i].stage, l->need, before + clock_seconds() - start, 0);
+    plan_note(p, STAGES[i].stage, l->need, before + clock_seconds() - start,
+              l->bytes);
   }
 }
 

@@ -319,7 +319,7 @@ static void plan_walks(plan *p) {
   const plan_request *r = &p->of;
   bool shown = shows_light(p), found = !p->black || glows(p);
   bool dark = !found && p->lamp_count == 0;
-  uint64_t all = r->samples > 0 ? r->samples : PLAN_ANY;
+  uint64_t all = !shown ? 0 : r->samples > 0 ? r->samples : PLAN_ANY;
   tell(p, PLAN_PATHS, shown && !dark ? all : 0, all,
        !shown ? "the picture shows no light"
        : dark ? "nothing gives light"
