@@ -164,7 +164,8 @@ bool raster_job_draw(render_result *out, raster_job *job, const shot *s,
 static void note_frame(const raster_job *job, plan *p) {
   raster_counts n = raster_last_counts(job->r);
   const raster_times *t = &job->times;
-  plan_note(p, PLAN_TRIANGLES, n.uploaded, t->upload, (double)n.bytes);
+  plan_note(p, PLAN_MAPS, n.maps, n.map_seconds, (double)n.map_bytes);
+  plan_note(p, PLAN_TRIANGLES, n.uploaded, n.seconds, (double)n.bytes);
   plan_note(p, PLAN_DRAW_LIST, n.drawn, t->draw, 0);
   plan_note(p, PLAN_VISIBILITY, n.once, -1, 0);
   plan_note(p, PLAN_RESOLVE, n.resolves, -1, 0);

@@ -41,10 +41,6 @@ bool plan_shows_normals(render_shading shading, unsigned aovs) {
          (aovs & RENDER_AOV_NORMAL) != 0;
 }
 
-static bool shows_normals(const plan *p) {
-  return plan_shows_normals(p->of.shading, p->of.aovs);
-}
-
 static bool shows_light(const plan *p) {
   return p->of.shading == RENDER_RADIANCE;
 }
@@ -99,7 +95,7 @@ static unsigned maps_of(const plan *p, size_t i) {
   if (!in_view(p, i)) return casts ? reads & D : 0;
   if (shows_light(p)) return reads;
   unsigned wanted = 0;
-  if (shows_normals(p)) wanted |= NORMALS;
+  if (plan_shows_normals(p->of.shading, p->of.aovs)) wanted |= NORMALS;
   bool color =
       p->of.shading == RENDER_ALBEDO || (p->of.aovs & RENDER_AOV_ALBEDO) != 0;
   if (color) wanted |= KD | KS;
@@ -150,20 +146,33 @@ static void plan_env_map(plan *p) {
                          : "it lights the scene");
 }
 
+// Statements that name a texture, and those of them that are looked at.
+static uint64_t count_maps(const plan *p, uint64_t *all) {
+  uint64_t need = 0;
+  *all = 0;
+  for (size_t i = 0; i < p->of.scene->material_count; i++)
+    for (int k = 0; k < MATERIAL_MAPS; k++) {
+      bool found = material_map(&p->of.scene->materials[i], k)->found != NULL;
+      *all += found;
+      need += found && (p->maps[i] >> k & 1) != 0;
+    }
+  return need;
+}
+
 static void plan_geometry(plan *p) {
   const mesh *m = &p->of.scene->mesh;
-  bool read = false;
-  for (size_t i = 0; i < p->of.scene->material_count; i++)
-    for (int k = 0; k < MATERIAL_MAPS; k++)
-      read |= (p->maps[i] >> k & 1) != 0 &&
-              material_map(&p->of.scene->materials[i], k)->found != NULL;
+  uint64_t all, read = count_maps(p, &all);
+  if (!p->of.path) {
+    tell(p, PLAN_MAPS, read, all, "each that is looked at, once");
+    p->line[PLAN_MAPS].at_most = true;
+  }
   uint64_t uv = m->texcoord_index != NULL ? m->texcoord_count : 0;
-  tell(p, PLAN_TEXCOORDS, read ? uv : 0, uv,
-       uv == 0 ? "the mesh has none"
-       : read  ? "for the textures"
-               : "no texture is looked at");
+  tell(p, PLAN_TEXCOORDS, read > 0 ? uv : 0, uv,
+       uv == 0    ? "the mesh has none"
+       : read > 0 ? "for the textures"
+                  : "no texture is looked at");
   uint64_t kept = m->normal_index != NULL ? m->normal_count : 0;
-  bool reads = shows_normals(p);
+  bool reads = plan_shows_normals(p->of.shading, p->of.aovs);
   tell_as_is(p, PLAN_NORMALS, kept, m->normal_count,
              kept > 0 ? "surfaces are smooth"
              : reads  ? "the mesh is flat"

@@ -17,6 +17,7 @@ typedef enum plan_stage {
   PLAN_TEXCOORDS,    // kept
   PLAN_NORMALS,      // of corners, kept or made
   PLAN_TRIANGLES,    // uploaded, or in the tree
+  PLAN_MAPS,         // textures in the memory of the context
   PLAN_DRAW_LIST,    // triangles drawn for the eye
   PLAN_VISIBILITY,   // found before anything is shaded
   PLAN_KINDS,        // of surface that have a program

@@ -29,6 +29,7 @@ static const stage_words WORDS[PLAN_STAGES] = {
     [PLAN_TEXCOORDS] = {"texture coordinates", "pairs"},
     [PLAN_NORMALS] = {"normals", "vectors"},
     [PLAN_TRIANGLES] = {"triangles", "triangles"},
+    [PLAN_MAPS] = {"texture uploads", "maps"},
     [PLAN_DRAW_LIST] = {"draw list", "triangles"},
     [PLAN_VISIBILITY] = {"visibility first", "passes"},
     [PLAN_KINDS] = {"programs", "kinds of surface"},

@@ -10,6 +10,7 @@ struct raster {
   raster_stock stock;
   raster_times times;
   raster_counts counts;  // of the last frame, without the passes after it
+  double mesh_seconds, map_seconds;  // parts of times.upload
   arena *mem;
 };
 
@@ -119,9 +120,12 @@ static bool ready_programs(raster_stock *s, error *err) {
 
 static bool upload(raster *r, arena *mem, error *err) {
   raster_stock *s = &r->stock;
+  double start = clock_seconds();
   raster_mesh_upload(&s->mesh, s->g, s->scene, s->set.spared.edges, mem);
+  r->mesh_seconds = clock_seconds() - start;
   s->space = space_of(s);
   s->maps = raster_maps_upload(s->g, s->scene, mem);
+  r->map_seconds = clock_seconds() - start - r->mesh_seconds;
   copy_materials(s, mem);
   ready_ambient(s);
   upload_env(s);
@@ -311,6 +315,8 @@ raster_counts raster_last_counts(const raster *r) {
     c.kinds++;
   c.programs = s->programs.count;
   c.bytes = s->mesh.bytes;
+  c.seconds = r->mesh_seconds;
+  c.map_seconds = r->map_seconds;
   c.lamps = s->set.lights ? s->programs.lights : 0;
   c.shadow_bytes = s->shadow.layers * sizeof(float) * (size_t)s->shadow.size *
                    (size_t)s->shadow.size;

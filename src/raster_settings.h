@@ -75,7 +75,9 @@ typedef struct raster_settings {
 typedef struct raster_counts {
   size_t kinds, programs;  // of surface, among all programs
   size_t maps, map_bytes;  // textures of materials, without their mipmaps
+  double map_seconds;      // that they took
   size_t uploaded, bytes;  // triangles, and bytes of their vertices
+  double seconds;          // that these took
   size_t once;             // frames in which visibility came first
   size_t lamps;            // that programs know of
   size_t drawn;            // triangles, for the eye
