@@ -48,6 +48,7 @@ raster_settings raster_job_settings(const shot *s) {
       .each = v[OPT_SHADE].words == 1,
       .shading = shadings[v[OPT_SHADING].words],
       .model = v[OPT_PBR_MODEL].words == 0 ? RASTER_GGX : RASTER_REPORT,
+      .spared = {.outside = true, .edges = true},
   };
 }
 

@@ -15,6 +15,7 @@ void plan_settle(const plan *p, raster_settings *set) {
   set->shadows = plan_needs(p, PLAN_SHADOW_MAPS);
   set->sky = plan_needs(p, PLAN_SKY);
   set->thorough = p->of.no_skip;
+  set->spared = (raster_spared){0};
   if (p->of.no_skip) return;
   set->spared = (raster_spared){.outside = true,
                                 .edges = true,
