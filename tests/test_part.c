@@ -73,7 +73,7 @@ static part make_part(arena *mem, int index, int count, unsigned films) {
             .exposure = 0.5f,
             .films = films,
             .key = "version 9\nseed 3\ngeometry 17\n",
-            .tally = {{10, 1}, 20, 2, 3, 4}};
+            .tally = {{.rays = 10, .cut = 1}, 20, 2, 3, 4}};
   if (films >> PART_NORMAL & 1) p.aovs |= RENDER_AOV_NORMAL;
   if (films >> PART_DEPTH & 1) p.aovs |= RENDER_AOV_DEPTH;
   part_deal(&p, mem);
