@@ -457,9 +457,23 @@ def pictures():
     row("an HDR of long runs", {"in/x.hdr": long}, "info x.hdr", 3, "too short for its width and height", most=128)
 
 
+def seeds():
+    """The fuzzers' seeds are those of the script that says how they are made."""
+    global done, failed
+    done += 1
+    sys.path.insert(0, "tests/fuzz")
+    sys.dont_write_bytecode = True
+    import seeds as made
+    bad = [f"{kind}/{name}" for kinds in (made.PICTURES, made.TEXTS) for kind, files in kinds.items()
+           for name, data in files.items() if pathlib.Path("tests/fuzz/seeds", kind, name).read_bytes() != data]
+    failed += bool(bad)
+    print(f"{'not ' if bad else ''}ok {done} - seeds of the fuzzers {' '.join(bad)}")
+
+
 paths()
 kinds()
 terminals()
+seeds()
 objs()
 mtls()
 scenes()

@@ -54,8 +54,10 @@ static size_t seeds_of(const char *kind, const char *name, seed *out,
   DIR *d = opendir(folder);
   size_t n = 0;
   for (struct dirent *e; d != NULL && (e = readdir(d)) != NULL;)
-    if (e->d_name[0] != '.' && n < most)
+    if (e->d_name[0] != '.') {
+      assert_true(n < most);
       out[n++] = seed_read(folder, e->d_name);
+    }
   if (d != NULL) closedir(d);
   return n;
 }
