@@ -3,6 +3,7 @@
 # make figures       those of all chapters
 # make bless-4       accept chapter 4's new pictures as the book's (look first)
 # make test          every test; ends in prove's summary
+# make stress        numbers at their limits, as a table (chapter 16)
 # make bench         measurements that depend on the machine
 # make fuzz          strange files for every reader, SECONDS (300) each
 # make weave         refresh the listings of the chapters from the source
@@ -150,6 +151,15 @@ test: build-tests
 	CMOCKA_MESSAGE_OUTPUT=TAP MODULES="$(MODULES)" CC="$(CC)" \
 	  CHAPTERS="$(CHAPTERS)" prove --timer -j 2 -e '' tests/*.t $(UNIT)
 
+# What was tried hard, how often, and what broke: a table.  STRESS=long takes
+# hours, "short" seconds; a number behind it changes the random numbers.
+STRESS ?= full
+$(B)/stress: $(patsubst %.c,$(B)/%.o,$(wildcard tests/stress/*.c)) \
+             $(call obj,$(filter-out main,$(MODULES)))
+	$(CC) $(FLAGS) $(CFLAGS) $^ -lcmocka $(LIBS) -o $@
+stress: $(B)/stress
+	$(B)/stress $(STRESS)
+
 bench: all
 	tests/bench/run
 
@@ -216,6 +226,6 @@ deb:
 clean:
 	rm -rf build
 
-.PHONY: all figures weave unit build-tests test bench book format install uninstall deb clean \
+.PHONY: all figures weave unit build-tests test stress bench book format install uninstall deb clean \
         $(foreach n,$(CHAPTERS),draw-$(n) chapter-$(n) bless-$(n))
 -include $(shell find build -name '*.d' 2>/dev/null)

@@ -2,6 +2,7 @@
 
 #include "film.h"
 
+#include <float.h>
 #include <string.h>
 
 film film_new(arena *mem, int width, int height, bool with_variance) {
@@ -52,9 +53,16 @@ static double mean_variance(const film *f, size_t i, int c) {
   return fmax(spread, 0) / (n - 1) / n;
 }
 
+// The largest float for more than that: samples of 1e20 are floats, their
+// variance is not.
+static float bounded(double x) {
+  return (float)fmin(x, (double)FLT_MAX);
+}
+
 vec3 film_variance(const film *f, size_t i) {
-  return (vec3){(float)mean_variance(f, i, 0), (float)mean_variance(f, i, 1),
-                (float)mean_variance(f, i, 2)};
+  return (vec3){bounded(mean_variance(f, i, 0)),
+                bounded(mean_variance(f, i, 1)),
+                bounded(mean_variance(f, i, 2))};
 }
 
 static size_t pixel_count(const film *f) {

@@ -29,13 +29,14 @@ SIMD f8 leaf_error(const leaf_shear *c, f8 det) {
 // Whether the t of single precision is within 12 roundings of the largest z of
 // where the ray meets the triangle.  Then holding it to that point, as
 // slab_hold does for large triangles, changes nothing: the margins of slab_ray
-// are wider.
-SIMD uint32_t leaf_firm(const leaf_shear *c, f8 det) {
+// are wider.  Not where the shear is denormal, and has fewer digits.
+SIMD uint32_t leaf_firm(const leaf_shear *c, f8 det, f8 sz) {
   f8 mx = f8_peak(c->x), my = f8_peak(c->y), mz = f8_peak(c->z);
   f8 least = f8_min(f8_min(c->z[0], c->z[1]), c->z[2]);
   f8 most = f8_max(f8_max(c->z[0], c->z[1]), c->z[2]);
   f8 range = f8_mul(f8_all(3), f8_sub(most, least));
-  return f8_lt(f8_mul(f8_mul(mx, my), range), f8_mul(mz, f8_abs(det)));
+  return f8_lt(f8_mul(f8_mul(mx, my), range), f8_mul(mz, f8_abs(det))) &
+         f8_le(f8_all(FLT_MIN), f8_abs(sz));
 }
 
 // Where the lines of the rays enter and leave the boxes of the triangles
@@ -83,7 +84,7 @@ SIMD uint32_t leaf_distances(leaf_shear *c, const leaf_tests *of, uint32_t m,
                 f8_lt(t, infinite) & f8_le(near, far) & f8_le(near, best);
   // Held to a point, t stays in the span of the triangle's box.
   float large = of->p ? of->p->large : of->w->large;
-  uint32_t held = f8_le(side, f8_all(large)) | leaf_firm(c, det);
+  uint32_t held = f8_le(side, f8_all(large)) | leaf_firm(c, det, sz);
   *unsure = m & (~sure | (in & ~held));
   t = f8_min(far, f8_max(near, t));
   f8_store(out_t, t);
