@@ -144,7 +144,7 @@ $(UNIT): $(B)/tests/%: $(B)/tests/%.o $(call obj,$(filter-out main,$(MODULES)))
 .PRECIOUS: $(B)/tests/%.o
 
 unit: $(UNIT)
-build-tests: all unit $(CHAPTERS:%=$(B)/chapter-%)
+build-tests: all unit $(B)/stress $(CHAPTERS:%=$(B)/chapter-%)
 test: build-tests
 	+$(MAKE) --no-print-directory SAN=address,undefined \
 	  build/address-undefined/facet unit
@@ -154,9 +154,17 @@ test: build-tests
 # What was tried hard, how often, and what broke: a table.  STRESS=long takes
 # hours, "short" seconds; a number behind it changes the random numbers.
 STRESS ?= full
-$(B)/stress: $(patsubst %.c,$(B)/%.o,$(wildcard tests/stress/*.c)) \
+$(B)/stress: $(patsubst %.c,$(B)/%.o,$(filter-out %/kernel.c,$(wildcard tests/stress/*.c))) \
+             $(B)/kernel_float.o $(B)/kernel_double.o \
              $(call obj,$(filter-out main,$(MODULES)))
 	$(CC) $(FLAGS) $(CFLAGS) $^ -lcmocka $(LIBS) -o $@
+# The same code with float and with double; each keeps but one name.
+$(B)/kernel_float.o: KERNEL := kernel_float
+$(B)/kernel_double.o: KERNEL := kernel_double -DKERNEL_DOUBLE
+$(B)/kernel_float.o $(B)/kernel_double.o: $(B)/kernel_%.o: tests/stress/kernel.c Makefile
+	@mkdir -p $(@D)
+	$(CC) $(FLAGS) $(CFLAGS) $(wordlist 2,9,$(KERNEL)) -MMD -MP -c $< -o $@
+	objcopy --keep-global-symbol=$(firstword $(KERNEL)) $@
 stress: $(B)/stress
 	$(B)/stress $(STRESS)
 

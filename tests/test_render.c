@@ -202,6 +202,10 @@ static void long_sums(void **state) {
   assert_true(m.y == 0.1f && v.y < 1e-15f);
   assert_true(fabs((double)v.x / variance - 1) < 1e-6);
   assert_true(film_mean(&f, 0).x == 0 && film_variance(&f, 0).x == 0);
+  // A variance beyond floats is the largest of them.
+  film_add(&f, 0, vec3_all(0));
+  film_add(&f, 0, vec3_all(1e30f));
+  assert_true(film_variance(&f, 0).x == FLT_MAX);
   arena_free(&mem);
 }
 

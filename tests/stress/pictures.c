@@ -220,7 +220,7 @@ static void z_test(stress *s) {
   while (erfc(allowed / sqrt(2.0)) > 0.01 / n)
     allowed += 0.01;
   stress_print(
-      s, (stress_row){"z-test, naive against light-seeking paths: largest |z|",
+      s, (stress_row){"z-test, naive against light-seeking paths: largest z",
                       2 * n * spp, wrong, largest, allowed,
                       "Mitsuba's tests: as strict"});
   world_free(w);

@@ -73,9 +73,8 @@ static void total_reflection(stress *s) {
     double off = fabs(out - (double)b.eta * (double)side);
     worst = fmax(worst, (double)d.wi.z * off);
   }
-  stress_print(s,
-               (stress_row){"glass from inside: total reflection, Snell, |wi|",
-                            (double)n, wrong, worst, 1e-6, "none"});
+  stress_print(s, (stress_row){"glass from inside: total reflection, Snell",
+                               (double)n, wrong, worst, 1e-6, "none"});
 }
 
 static vec3 at_angle(float c, float turns) {
