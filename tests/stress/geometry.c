@@ -79,7 +79,7 @@ static void leave(stress *s) {
     tried += (double)rays;
   }
   stress_print(s, (stress_row){"rays leave where they hit: sizes 1e-6 to 1e6",
-                               tried, wrong, NAN, NAN,
+                               tried, wrong, NO_LIMIT, NO_LIMIT,
                                "tmin 1e-3: half of them fail"});
   wrong = tried = 0;
   for (int e = 1; e <= 4; e++) {
@@ -87,7 +87,7 @@ static void leave(stress *s) {
     tried += 3 * (double)rays;
   }
   stress_print(s, (stress_row){"the same, sizes 10 to 1e4 at a distance of 1e6",
-                               tried, wrong, NAN, NAN, "none"});
+                               tried, wrong, NO_LIMIT, NO_LIMIT, "none"});
 }
 
 // Slivers as a face: a normal good to float precision, and a ray that hits and
@@ -217,7 +217,7 @@ static void coincide(stress *s) {
   }
   stress_print(s, (stress_row){"coincident, degenerate, infinite triangles: "
                                "5 trees = list",
-                               (double)n, wrong, NAN, NAN, "none"});
+                               (double)n, wrong, NO_LIMIT, NO_LIMIT, "none"});
   arena_free(&mem);
 }
 
@@ -251,7 +251,7 @@ static void odd_rays(stress *s) {
   }
   stress_print(
       s, (stress_row){"rays of -0, denormal, infinite, NaN: 5 trees = list",
-                      (double)n, wrong, NAN, NAN, "none"});
+                      (double)n, wrong, NO_LIMIT, NO_LIMIT, "none"});
   arena_free(&mem);
 }
 

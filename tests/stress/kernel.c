@@ -23,6 +23,9 @@
 
 #ifdef KERNEL_DOUBLE
 #pragma GCC diagnostic ignored "-Wdouble-promotion"
+#ifdef __clang__
+#pragma GCC diagnostic ignored "-Wkeyword-macro"
+#endif
 #define float double
 #define sqrtf sqrt
 #define fabsf fabs

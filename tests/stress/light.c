@@ -30,8 +30,11 @@ static double off_by(world *w, stress *s, size_t n, float level,
   double worst = 0;
   light_set lights;
   light_set_build(&lights, &w->scene, true, true, &w->mem, NULL);
-  path_tracer p = {&w->path, &lights, vertex_many_best(), SAMPLER_SOBOL,
-                   s->slice};
+  path_tracer p = {.world = &w->path,
+                   .lights = &lights,
+                   .vertices = vertex_many_best(),
+                   .sampler = SAMPLER_SOBOL,
+                   .seed = s->slice};
   integrator by = path_integrator(&p);
   void *room = by.room(by.self, &w->mem);
   path_stats stats = {0};
@@ -146,7 +149,7 @@ static void trapped(stress *s) {
   wrong += (double)stats.cut;
   stress_print(
       s, (stress_row){"light shut in a cube of diamond: paths without end",
-                      (double)n, wrong, NAN, NAN, "none"});
+                      (double)n, wrong, NO_LIMIT, NO_LIMIT, "none"});
   world_free(w);
 }
 
@@ -257,7 +260,7 @@ static void rounding(stress *s, int top) {
   stress_print(s,
                (stress_row){top == 255 ? "every rounding to 8 bits of sRGB"
                                        : "every rounding to 16 bits of sRGB",
-                            tried, wrong, NAN, NAN,
+                            tried, wrong, NO_LIMIT, NO_LIMIT,
                             top == 255 ? "149 of 510 wrong (powf)" : "none"});
 }
 

@@ -16,8 +16,11 @@ static render_result draw(world *w, stress *s, const camera_view *v, int side,
   light_set lights;
   light_set_build(&lights, &w->scene, true, true, &w->mem, s->threads);
   path_naive naive = {&w->path, 11 + s->slice};
-  path_tracer looking = {&w->path, &lights, vertex_many_best(), SAMPLER_RANDOM,
-                         12 + s->slice};
+  path_tracer looking = {.world = &w->path,
+                         .lights = &lights,
+                         .vertices = vertex_many_best(),
+                         .sampler = SAMPLER_RANDOM,
+                         .seed = 12 + s->slice};
   integrator by =
       how == 0 ? path_naive_integrator(&naive) : path_integrator(&looking);
   render_settings settings = {.width = side,
@@ -172,9 +175,9 @@ static void odd_scenes(stress *s) {
   }
   stress_print(s,
                (stress_row){"odd scenes, both integrators: non-finite pixels",
-                            samples, wrong, NAN, NAN, "none"});
+                            samples, wrong, NO_LIMIT, NO_LIMIT, "none"});
   stress_print(s, (stress_row){"the same: samples that had to be dropped",
-                               samples, dropped, NAN, NAN, "none"});
+                               samples, dropped, NO_LIMIT, NO_LIMIT, "none"});
 }
 
 // A closed room with matt, rough, mirror and glossy balls and a lamp: each

@@ -125,14 +125,15 @@ void stress_watertight(stress *s) {
   needles(&n, s, &mem, rays);
   stress_print(
       s, (stress_row){"leaks: rays at edges, sizes 1e-6 to 1e6, far, flat",
-                      l.tried[0], l.lost[0], NAN, NAN,
+                      l.tried[0], l.lost[0], NO_LIMIT, NO_LIMIT,
                       "Embree's tests allow 2e-5; pbrt tries 2e5"});
   stress_print(s, (stress_row){"leaks: rays at vertices of the same",
-                               l.tried[1], l.lost[1], NAN, NAN,
+                               l.tried[1], l.lost[1], NO_LIMIT, NO_LIMIT,
                                "3.6e-3 (Embree 3.13, robust)"});
-  stress_print(s, (stress_row){"leaks: edges of slivers, aspect 1e7",
-                               n.tried[0], n.lost[0], NAN, NAN, "none"});
+  stress_print(s,
+               (stress_row){"leaks: edges of slivers, aspect 1e7", n.tried[0],
+                            n.lost[0], NO_LIMIT, NO_LIMIT, "none"});
   stress_print(s, (stress_row){"leaks: vertices of slivers", n.tried[1],
-                               n.lost[1], NAN, NAN, "none"});
+                               n.lost[1], NO_LIMIT, NO_LIMIT, "none"});
   arena_free(&mem);
 }
