@@ -77,7 +77,8 @@ CHAPTER_17 := $(filter-out main,$(MODULES))
 # Objects of those modules that have a .c; the folder of chapter N.
 # Whoever assembles shaders links their text.
 obj  = $(patsubst src/%.c,$(B)/src/%.o,$(wildcard $(1:%=src/%.c))) \
-       $(if $(filter glsl,$(1)),$(B)/shaders.o)
+       $(if $(filter glsl,$(1)),$(B)/shaders.o) \
+       $(if $(filter cmd_keep,$(1)),$(B)/source.o)
 slug = $(notdir $(wildcard chapters/$(shell printf %02d $(1))-*))
 
 all: build/facet
@@ -112,6 +113,13 @@ $(B)/shaders.c: shaders/embed.sh $(SHADERS)
 	@mkdir -p $(@D)
 	sh shaders/embed.sh $(SHADERS) >$@
 $(B)/shaders.o: $(B)/shaders.c
+	$(CC) $(FLAGS) $(CFLAGS) -c $< -o $@
+
+# A sum over all sources, which parts of pictures are marked with.
+$(B)/source.c: $(sort $(wildcard src/*.[ch]))
+	@mkdir -p $(@D)
+	cat $^ | cksum | sed 's/\(.*\) .*/extern const char source_sum[];const char source_sum[] = "\1";/' >$@
+$(B)/source.o: $(B)/source.c
 	$(CC) $(FLAGS) $(CFLAGS) -c $< -o $@
 
 # A chapter's program writes its pictures into the folder that it is given.

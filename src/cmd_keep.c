@@ -84,6 +84,10 @@ static const char *word_of(const cmd_keep *k, option_id id) {
   return word;
 }
 
+// A sum over the sources of this facet, by the Makefile: a version may have
+// many of them while it is being made.
+extern const char source_sum[];
+
 // All that the samples of a pixel depend on, as lines.
 static const char *write_key(const cmd_keep *k, const shot *sh,
                              const render_settings *s) {
@@ -92,13 +96,13 @@ static const char *write_key(const cmd_keep *k, const shot *sh,
   bool naive = k->o->value[OPT_INTEGRATOR].words == 1;
   char *settings = arena_format(
       k->mem,
-      "version %s\nfilm %dx%d\nwindow %d,%d,%d,%d\nhalves %s\nshading %s\n"
+      "version %s %s\nfilm %dx%d\nwindow %d,%d,%d,%d\nhalves %s\nshading %s\n"
       "aov %u\nseed %llu\nintegrator %s\nsampler %s\nmax-depth %d\n"
       "lights %s\npbr-model %s\n",
-      FACET_VERSION, s->width, s->height, w->x0, w->y0, w->x1, w->y1,
-      k->part.films >> PART_EVEN & 1 ? "yes" : "no", word_of(k, OPT_SHADING),
-      s->aovs, (unsigned long long)s->seed, word_of(k, OPT_INTEGRATOR),
-      naive ? "random" : word_of(k, OPT_SAMPLER),
+      FACET_VERSION, source_sum, s->width, s->height, w->x0, w->y0, w->x1,
+      w->y1, k->part.films >> PART_EVEN & 1 ? "yes" : "no",
+      word_of(k, OPT_SHADING), s->aovs, (unsigned long long)s->seed,
+      word_of(k, OPT_INTEGRATOR), naive ? "random" : word_of(k, OPT_SAMPLER),
       (int)k->o->value[OPT_MAX_DEPTH].whole[0], word_of(k, OPT_LIGHTS),
       word_of(k, OPT_PBR_MODEL));
   const uint64_t numbers[] = {d.camera,   d.geometry, d.materials,
