@@ -2,6 +2,8 @@
 
 #include "light_memory.h"
 
+#include <string.h>
+
 // Cells along the longest side of the scene.
 enum { GRID = 24, SIDES = 6, KEYS = GRID * GRID * GRID * SIDES };
 
@@ -17,6 +19,10 @@ enum { NEAR = 3, SOME = GRID / NEAR, REGIONS = SOME * SOME * SOME * SIDES };
 
 // The least probability that any light is asked.
 #define LEAST_ASKED 0.08f
+
+// What probabilities are counted in; where there are more cells than numbers
+// for them, the rest learns nothing.
+enum { UNITS = 1 << 16, MOST_CELLS = 1 << 16 };
 
 static float axis_of(vec3 v, int axis) {
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
@@ -45,11 +51,16 @@ static float power_of(const light_memory *m, uint32_t part) {
   return e->power / (float)(cuts * cuts);
 }
 
-static pick pick_of(const float *weights, uint32_t n, arena *mem) {
-  pick p = pick_new(mem, n);
-  double sum;
-  pick_weigh(&p, weights, &sum);
-  return p;
+// A cell by weights whose sum is the probability to ask at all.  Each part
+// keeps a unit: what shines may be asked.
+static light_cell cell_of_weights(const light_memory *m, const float *weights) {
+  light_cell c;
+  uint32_t n = m->parts.count, end = 0;
+  for (uint32_t i = 0; i < LIGHT_PARTS_MOST; i++) {
+    if (i < n) end += 1 + (uint32_t)(weights[i] * (float)(UNITS - n - 1));
+    c.last[i] = (uint16_t)(i < n ? end - 1 : UNITS - 1);
+  }
+  return c;
 }
 
 bool light_memory_new(light_memory *out, const light_tree *t, vec3 lo, vec3 hi,
@@ -59,12 +70,14 @@ bool light_memory_new(light_memory *out, const light_tree *t, vec3 lo, vec3 hi,
   m.per_unit = GRID / longest;
   if (!(longest > 0 && isfinite(m.per_unit)) || !vec3_finite(lo)) return false;
   if (!light_parts_of(&m.parts, t, mem)) return false;
-  float weights[LIGHT_PARTS_MOST + 1] = {0};
+  float weights[LIGHT_PARTS_MOST], power = 0;
   for (uint32_t i = 0; i < m.parts.count; i++)
-    weights[i] = power_of(&m, i);
-  m.cell_of = ARENA_NEW(mem, uint32_t, KEYS);
-  m.cells = ARENA_NEW(mem, pick, 1);
-  m.cells[0] = pick_of(weights, m.parts.count + 1, mem);
+    power += power_of(&m, i);
+  for (uint32_t i = 0; i < m.parts.count; i++)
+    weights[i] = power_of(&m, i) / power;
+  m.cell_of = ARENA_NEW(mem, uint16_t, KEYS);
+  m.cells = ARENA_NEW(mem, light_cell, 1);
+  m.cells[0] = cell_of_weights(&m, weights);
   *out = m;
   return true;
 }
@@ -107,8 +120,8 @@ static double mean_square(const school *s, uint32_t cell, uint32_t part) {
 
 // The best probabilities are as the roots of the mean squares, and so is how
 // often to ask at all.
-static pick conclude(school *s, uint32_t cell, arena *mem) {
-  float weights[LIGHT_PARTS_MOST + 1] = {0}, power = 0;
+static light_cell conclude(school *s, uint32_t cell) {
+  float weights[LIGHT_PARTS_MOST], power = 0;
   double sum = 0;
   for (uint32_t i = 0; i < s->parts; i++) {
     weights[i] = (float)sqrt(mean_square(s, cell, i));
@@ -123,8 +136,12 @@ static pick conclude(school *s, uint32_t cell, arena *mem) {
   asked = float_max(asked, LEAST_ASKED);
   for (uint32_t i = 0; i < s->parts; i++)
     weights[i] = asked * (known * weights[i] + doubt * power_of(s->m, i));
-  weights[s->parts] = 1 - asked;
-  return pick_of(weights, s->parts + 1, mem);
+  return cell_of_weights(s->m, weights);
+}
+
+static float share_of(const light_cell *c, uint32_t part) {
+  uint32_t below = part > 0 ? c->last[part - 1] + 1u : 0;
+  return (float)(c->last[part] + 1u - below) / UNITS;
 }
 
 // The mean square of what a question brings in a cell, over that if parts are
@@ -134,9 +151,9 @@ typedef struct outlook {
 } outlook;
 
 static void look_at(const school *s, uint32_t cell, double power, outlook *o) {
-  const pick *p = &s->m->cells[cell];
+  const light_cell *c = &s->m->cells[cell];
   for (uint32_t i = 0; i < s->parts; i++) {
-    double share = (double)pick_share(p, i), square = mean_square(s, cell, i);
+    double share = (double)share_of(c, i), square = mean_square(s, cell, i);
     if (!(share > 0)) continue;
     o->by_memory += (double)s->visits[cell] * square / share;
     o->by_power +=
@@ -176,7 +193,8 @@ double light_memory_learn(light_memory *m, const light_record *records,
   for (size_t i = 0; i < KEYS; i++)
     m->cell_of[i] = 0;
   for (size_t i = 0; i < n; i++)
-    if (m->cell_of[records[i].key] == 0) m->cell_of[records[i].key] = s.cells++;
+    if (m->cell_of[records[i].key] == 0 && s.cells < MOST_CELLS)
+      m->cell_of[records[i].key] = (uint16_t)s.cells++;
   s.key_of = ARENA_NEW(&scratch, uint32_t, s.cells);
   for (uint32_t i = 0; i < KEYS; i++)
     s.key_of[m->cell_of[i]] = i;
@@ -184,20 +202,44 @@ double light_memory_learn(light_memory *m, const light_record *records,
   s.region = ARENA_NEW(&scratch, lore, (size_t)REGIONS * s.parts);
   s.of = ARENA_NEW(&scratch, lore, (size_t)s.cells * s.parts);
   attend(&s, records, n);
-  m->cells = ARENA_NEW(mem, pick, s.cells);
+  m->cells = ARENA_NEW(mem, light_cell, s.cells);
   for (uint32_t i = 0; i < s.cells; i++)
-    m->cells[i] = conclude(&s, i, mem);
+    m->cells[i] = conclude(&s, i);
   double gain = gain_of(&s);
   arena_free(&scratch);
   return gain;
 }
 
+static const light_cell *cell_at(const light_memory *m, uint32_t key) {
+  return &m->cells[m->cell_of[key]];
+}
+
+// Eight numbers in a register.
+typedef uint16_t eight __attribute__((vector_size(16)));
+
+// How many parts end before a unit: no branch depends on it.
+static uint32_t count_below(const light_cell *c, uint16_t unit) {
+  eight at = {unit, unit, unit, unit, unit, unit, unit, unit}, sum = {0};
+  for (int i = 0; i < LIGHT_PARTS_MOST; i += 8) {
+    eight last;
+    memcpy(&last, c->last + i, sizeof last);
+    sum -= (eight)(last < at);
+  }
+  uint32_t count = 0;
+  for (int i = 0; i < 8; i++)
+    count += sum[i];
+  return count;
+}
+
 bool light_memory_pick(const light_memory *m, uint32_t key, float u,
                        uint32_t *part, float *share) {
-  *part = pick_at(&m->cells[m->cell_of[key]], &u, share);
-  return *part < m->parts.count;
+  const light_cell *c = cell_at(m, key);
+  *part = count_below(c, (uint16_t)(u * UNITS));
+  if (*part >= m->parts.count) return false;
+  *share = share_of(c, *part);
+  return true;
 }
 
 float light_memory_share(const light_memory *m, uint32_t key, uint32_t part) {
-  return pick_share(&m->cells[m->cell_of[key]], part);
+  return share_of(cell_at(m, key), part);
 }

@@ -5,7 +5,6 @@
 #define LIGHT_MEMORY_H
 
 #include "light_part.h"
-#include "pick.h"
 
 // What one question brought: the cell of the place (light_memory_key), whom it
 // went to, and the square of the irradiance from there over its density; 0
@@ -15,15 +14,20 @@ typedef struct light_record {
   float square;
 } light_record;
 
-// Probabilities of the parts of all lights, for each cell of a grid over the
-// scene and each of six sides that a surface may face; one more answer is to
-// ask none.
+// Whom to ask, in units of 2^-16: part k for numbers after last[k - 1] up to
+// last[k], and for those beyond all none.  Two lines of the cache.
+typedef struct light_cell {
+  uint16_t last[LIGHT_PARTS_MOST];
+} light_cell;
+
+// A cell for each place of a grid over the scene and each of six sides that a
+// surface may face.
 typedef struct light_memory {
   light_parts parts;
   vec3 lo;
   float per_unit;     // cells along a unit of length
-  uint32_t *cell_of;  // by key
-  pick *cells;        // the first one for places that nobody has been to
+  uint16_t *cell_of;  // by key
+  light_cell *cells;  // the first one for places that nobody has been to
 } light_memory;
 
 // One that has learned nothing: parts by their power.  The box is the scene's.
@@ -38,6 +42,13 @@ double light_memory_learn(light_memory *m, const light_record *records,
                           size_t n, arena *mem);
 
 uint32_t light_memory_key(const light_memory *m, vec3 p, vec3 n);
+
+// Let what is known at a key come nearer, for a question soon.
+static inline void light_memory_fetch(const light_memory *m, uint32_t key) {
+  const light_cell *c = &m->cells[m->cell_of[key]];
+  __builtin_prefetch(c);
+  __builtin_prefetch(c->last + LIGHT_PARTS_MOST / 2);
+}
 
 // A part by u in [0, 1), with its probability, for a surface at p that faces
 // n; false when no light is to be asked.

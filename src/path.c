@@ -248,10 +248,22 @@ static void vertices_at(const wave *w, size_t n) {
     w->met->at[i] = vertex_at(world, &m->hits[i], m->rays[i].d);
 }
 
+// Memory of lights is large, and each vertex asks elsewhere: fetch what n of
+// them will ask for, all at once.
+static void fetch_memory(const wave *w, size_t n) {
+  const light_memory *m = w->by->lights->memory;
+  if (m == NULL) return;
+  for (size_t i = 0; i < n; i++) {
+    const vertex *v = &w->met->at[i];
+    light_memory_fetch(m, light_memory_key(m, v->at.p, v->ns));
+  }
+}
+
 // Shade n of the paths whose rays have met a surface.
 static void step_some(wave *w, size_t n) {
   met *m = w->met;
   vertices_at(w, n);
+  fetch_memory(w, n);
   for (size_t i = 0; i < n; i++) {
     ray r = m->rays[i];
     stop s = {.which = m->which[i], .at = &m->at[i]};

@@ -8,7 +8,7 @@
 #define OTHER_SEED UINT64_C(0x6c6561726e)
 
 // A path for so many pixels, but no more than so many paths.
-enum { PIXELS_PER_PATH = 4, MOST_PATHS = 1 << 17 };
+enum { PIXELS_PER_PATH = 2, MOST_PATHS = 1 << 17 };
 
 // After this share of the paths the first lesson ends, and what is remembered
 // must be worth so much.
