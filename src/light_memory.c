@@ -190,8 +190,7 @@ double light_memory_learn(light_memory *m, const light_record *records,
                           size_t n, arena *mem) {
   arena scratch = {0};
   school s = {.m = m, .cells = 1, .parts = m->parts.count};
-  for (size_t i = 0; i < KEYS; i++)
-    m->cell_of[i] = 0;
+  m->cell_of = ARENA_NEW(mem, uint16_t, KEYS);
   for (size_t i = 0; i < n; i++)
     if (m->cell_of[records[i].key] == 0 && s.cells < MOST_CELLS)
       m->cell_of[records[i].key] = (uint16_t)s.cells++;

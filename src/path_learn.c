@@ -112,7 +112,8 @@ bool path_learn(light_set *lights, const path_tracer *by,
   path_log all = {0};
   lights->memory = memory;
   hold_lesson(&job, job.paths / FIRST_SHARE, &all, threads);
-  double gain = light_memory_learn(memory, all.items, all.count, mem);
+  light_memory first = *memory;
+  double gain = light_memory_learn(&first, all.items, all.count, &scratch);
   if (gain >= WORTH && all.count >= LEAST_RECORDS) {
     hold_lesson(&job, job.paths, &all, threads);
     light_memory_learn(memory, all.items, all.count, mem);

@@ -6,7 +6,7 @@
 #include "light_emission.h"
 #include "metric.h"
 #include "num.h"
-#include "path.h"
+#include "path_learn.h"
 #include "render.h"
 #include "vertex.h"
 
@@ -552,6 +552,68 @@ static void draw_shadow(output *o) {
   publish(o->folder, "shadow", all);
 }
 
+// A room lit through a hole in its left wall by a lamp that is larger.
+static stage *dim_room(output *o) {
+  stage *s = stage_new(o, 64, 8);
+  uint32_t wall = add_material(s, (vec3){0.7f, 0.68f, 0.64f}, vec3_all(0));
+  uint32_t red = add_material(s, (vec3){0.65f, 0.2f, 0.15f}, vec3_all(0));
+  uint32_t lamp = add_material(s, vec3_all(0), (vec3){60, 55, 48});
+  const vec3 x = {4, 0, 0}, y = {0, 2, 0}, z = {0, 0, 4};
+  add_quad(s, (vec3){-2, 0, -2}, z, x, wall);
+  add_quad(s, (vec3){-2, 2, -2}, x, z, wall);
+  add_quad(s, (vec3){-2, 0, -2}, x, y, wall);
+  add_quad(s, (vec3){2, 0, 2}, vec3_neg(x), y, wall);
+  add_quad(s, (vec3){2, 0, -2}, z, y, red);
+  static const float left[4][4] = {{-2, -1.1f, 0, 2},
+                                   {-0.4f, 2, 0, 2},
+                                   {-1.1f, -0.4f, 0, 1},
+                                   {-1.1f, -0.4f, 1.6f, 2}};
+  for (int i = 0; i < 4; i++) {
+    const float *q = left[i];
+    add_quad(s, (vec3){-2, q[2], q[1]}, (vec3){0, 0, q[0] - q[1]},
+             (vec3){0, q[3] - q[2], 0}, wall);
+  }
+  add_quad(s, (vec3){-3, 0.3f, 1}, (vec3){0, 0, -4}, (vec3){0, 2.5f, 0}, lamp);
+  add_box(s, (vec3){-0.9f, 0, -1.2f}, (vec3){0.6f, 0.9f, 0.6f}, wall);
+  add_box(s, (vec3){0.4f, 0, -0.5f}, (vec3){0.5f, 0.5f, 0.5f}, red);
+  stage_ready(o, s);
+  return s;
+}
+
+static image render_room(output *o, const stage *s, path_tracer *by, int spp) {
+  enum { W = 238, H = 160 };
+  camera_view v =
+      view_of((vec3){1.5f, 1.2f, 1.8f}, (vec3){-0.9f, 0.7f, -1}, 60, W, H);
+  integrator looks = path_integrator(by);
+  render_settings set = {
+      .width = W, .height = H, .spp = spp, .seed = by->seed, .by = &looks};
+  render_result r;
+  render_run(&r, &s->world, &v, &set, &o->mem, o->threads);
+  return r.color;
+}
+
+// Eight samples that ask the tree, and eight that remember.
+static void draw_memory(output *o) {
+  stage *s = dim_room(o);
+  path_tracer by = {.world = &s->world, .lights = &s->lights, .seed = 1};
+  camera_view v =
+      view_of((vec3){1.5f, 1.2f, 1.8f}, (vec3){-0.9f, 0.7f, -1}, 60, 238, 160);
+  path_lesson lesson = {&v, 238, 160};
+  image parts[2] = {render_room(o, s, &by, 8)};
+  if (!path_learn(&s->lights, &by, &lesson, &o->mem, o->threads))
+    printf("nothing was learned\n");
+  parts[1] = render_room(o, s, &by, 8);
+  by.seed = 0;
+  image truth = render_room(o, s, &by, 128);
+  for (int i = 0; i < 2; i++) {
+    print_error(i == 0 ? "asking the tree" : "remembering", &parts[i], &truth,
+                o);
+    parts[i] = expose(parts[i], 0.4f);
+  }
+  image all = row_of(&o->mem, parts, 2);
+  publish(o->folder, "memory", all);
+}
+
 // The least seconds of several runs for each of n calls, in nanoseconds.
 typedef float (*timed)(const void *context, uint32_t i);
 
@@ -622,6 +684,7 @@ int main(int argc, char **argv) {
   draw_mistakes(&o);
   draw_many(&o);
   draw_shadow(&o);
+  draw_memory(&o);
   print_times(&o);
   pool_free(o.threads);
   arena_free(&o.mem);
