@@ -2,6 +2,7 @@
 // whole.
 
 #include "picture.h"
+#include "picture_head.h"
 
 #include "pictures.h"
 
@@ -280,6 +281,9 @@ static bool check_mean(const char *folder, const char *name,
   const char *path = arena_format(&mem, "%s/%s", folder, name);
   if (!picture_read(&p, path, &mem, NULL, &err)) fail_msg("%s", err.text);
   image im = p.is_linear ? p.linear : image_from_pixmap(&mem, &p.stored, false);
+  picture_head head;
+  if (!picture_head_read(&head, path, &err)) fail_msg("%s", err.text);
+  assert_true(head.width == im.width && head.height == im.height);
   double n = (double)im.width * im.height, unit = p.is_linear ? 1 : 255;
   for (int i = 0; i < im.width * im.height; i++) {
     got[0] += unit * (double)im.pixels[i].x / n;
@@ -298,6 +302,51 @@ static bool check_mean(const char *folder, const char *name,
                want[c]);
   arena_free(&mem);
   return true;
+}
+
+// A head tells the sides that reading finds, of every kind that is written
+// here; what has none is refused, and what is cut short behind it is not.
+static void heads_tell_the_size(void **state) {
+  place *p = *state;
+  const char *names[] = {"a.png", "a.pfm", "a.hdr"};
+  const picture_format formats[] = {PICTURE_PNG, PICTURE_PFM, PICTURE_HDR};
+  picture_head h;
+  for (int i = 0; i < 3; i++) {
+    assert_true(picture_write(&p->im, names[i], formats[i], 8, &p->err));
+    assert_true(picture_head_read(&h, names[i], &p->err));
+    assert_true(h.width == 20 && h.height == 10);
+    assert_int_equal(truncate(names[i], 160), 0);
+    assert_true(picture_head_read(&h, names[i], &p->err));
+    assert_int_equal(truncate(names[i], 12), 0);
+    assert_false(picture_head_read(&h, names[i], &p->err));
+    assert_non_null(strstr(p->err.text, names[i]));
+    assert_int_equal(truncate(names[i], 0), 0);
+    assert_false(picture_head_read(&h, names[i], &p->err));
+  }
+  assert_false(picture_head_read(&h, "none.png", &p->err));
+  names_here(true);
+}
+
+// The head of a JPEG may come late: here after 40 segments of 60,000 bytes.
+static void heads_may_come_late(void **state) {
+  place *p = *state;
+  static const unsigned char start[] = {0xff, 0xd8};
+  static const unsigned char extra[] = {0xff, 0xe1, 60000 >> 8, 60000 & 255};
+  static const unsigned char frame[] = {0xff, 0xc2, 0, 11, 8, 1, 44, 3, 32, 1};
+  FILE *f = fopen("late.jpg", "wb");
+  assert_non_null(f);
+  fwrite(start, 1, sizeof start, f);
+  for (int i = 0; i < 40; i++) {
+    fwrite(extra, 1, sizeof extra, f);
+    for (int k = 2; k < 60000; k++)
+      putc(0, f);
+  }
+  fwrite(frame, 1, sizeof frame, f);
+  fclose(f);
+  picture_head h;
+  assert_true(picture_head_read(&h, "late.jpg", &p->err));
+  assert_true(h.width == 800 && h.height == 300);
+  names_here(true);
 }
 
 // Real files of many programs have the means that other readers find.
@@ -347,6 +396,8 @@ int main(void) {
       IN_FOLDER(permissions_are_kept),
       IN_FOLDER(long_names),
       IN_FOLDER(standard_output),
+      IN_FOLDER(heads_tell_the_size),
+      IN_FOLDER(heads_may_come_late),
       IN_FOLDER(means_of_a_collection),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
