@@ -266,7 +266,9 @@ static void plan_kinds(plan *p) {
   bool inside = vec3_min(e, s->lo).x == s->lo.x &&
                 vec3_max(e, s->hi).x == s->hi.x && e.y >= s->lo.y &&
                 e.y <= s->hi.y && e.z >= s->lo.z && e.z <= s->hi.z;
-  if (!inside || p->of.no_skip || !plan_needs(p, PLAN_SKY)) return;
+  // To ask costs as much as a sky that is a formula.
+  if (!inside || s->env.kind != ENV_MAP) return;
+  if (p->of.no_skip || !plan_needs(p, PLAN_SKY)) return;
   p->line[PLAN_SKY].at_most = true;
   p->line[PLAN_SKY].why = "unless surfaces cover it";
 }

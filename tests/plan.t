@@ -99,7 +99,7 @@ with open("room.obj", "w") as out:
         out.write("v %g %g %g\n" % tuple((9 if i >> k & 1 else -9) for k in range(3)))
     for q in ((1, 3, 7, 5), (2, 6, 8, 4), (1, 5, 6, 2), (3, 4, 8, 7), (1, 2, 4, 3), (5, 7, 8, 6)):
         out.write("f %d %d %d %d\n" % q)
-scene("room", "room", "env sky\n")
+scene("room", "room", "env sky.pfm\n")
 END
 
 # run NAME ARGUMENTS...: NAME.pfm and NAME.json
