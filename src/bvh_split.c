@@ -13,6 +13,7 @@
 #include "clock.h"
 #include "slab.h"
 
+#include <float.h>
 #include <string.h>
 
 // At most SMALL refs, or 1 / TASKS of all, are a task; CHUNK are binned or
@@ -55,10 +56,11 @@ typedef struct split_builder {
 } split_builder;
 
 // Refs that one work item looks at, and what it finds: how many triangles are
-// large, and by how much their boxes are too large together.
+// large, by how much their boxes are too large together, and the sum of the
+// squares of that.
 typedef struct split_look {
   uint32_t large;
-  double excess;
+  double excess, squares;
 } split_look;
 
 typedef struct split_looking {
@@ -66,6 +68,7 @@ typedef struct split_looking {
   sah_ref *refs;
   uint32_t count;
   float least;  // slab_large
+  double area;  // half of that of all
   split_look *found;
 } split_looking;
 
@@ -101,7 +104,9 @@ static void look_at(void *context, size_t item, int worker) {
     r->as.unused = large ? SPLIT_LARGE : SPLIT_WHOLE;
     if (!large) continue;
     found->large++;
-    found->excess += excess_of(job->b, r);
+    double excess = excess_of(job->b, r) / job->area;
+    found->excess += excess;
+    found->squares += excess * excess;
   }
 }
 
@@ -115,22 +120,28 @@ static split_look look_at_all(const bvh *b, sah_ref *refs, const sah_box *box,
                        .refs = refs,
                        .count = b->kept,
                        .least = slab_large(&all),
+                       .area = sah_half_area(box),
                        .found = ARENA_NEW(mem, split_look, chunks)};
   split_look sum = {0};
   pool_run(threads, chunks, look_at, &job);
   for (size_t i = 0; i < chunks; i++) {
     sum.large += job.found[i].large;
     sum.excess += job.found[i].excess;
+    sum.squares += job.found[i].squares;
   }
-  double area = sah_half_area(box);
-  sum.excess = area > 0 ? sum.excess / area : 0;
   return sum;
 }
 
-// How many rays repay cutting triangles.
+// How many rays repay cutting triangles.  The excess would be the same if
+// `alike` triangles had equal shares of it.  Where the room is not enough to
+// cut each of those once, boxes of whole triangles remain between those of
+// parts, and no number of rays repays it; elsewhere parts have a share less.
 static double cut_rays_of(const split_look *l, uint32_t kept) {
   if (l->large == 0 || !(l->excess > 0)) return HUGE_VAL;
-  return kept * CUT_SECONDS / (l->excess * RAY_SECONDS);
+  double alike = l->excess * l->excess / l->squares;
+  double cuts = kept * (BVH_SPLIT_PERCENT / 100.0) / alike;
+  double spared = l->excess * (cuts / (1 + cuts));
+  return cuts >= 1 ? kept * CUT_SECONDS / (spared * RAY_SECONDS) : DBL_MAX;
 }
 
 // A node joins the tasks or the queue.

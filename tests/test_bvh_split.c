@@ -408,6 +408,16 @@ static void cuts_only_where_it_pays(void **unused) {
                       g.plain.node_count * sizeof(bvh_node));
   grove_plant(&g, shape_mix(&mem, 20000), &mem);
   assert_true(g.split.cost < 0.7 * g.plain.cost);
+  // However many rays: a few large triangles among many, but not needles of
+  // which there is no room to cut more than a third.
+  bvh tree;
+  bvh_split_build(&tree, &g.plain, 1e15, &mem, NULL);
+  assert_int_equal(tree.node_count, g.split.node_count);
+  grove_plant(&g, shape_needles(&mem, 3000, 1e-3f), &mem);
+  bvh_split_build(&tree, &g.plain, 1e15, &mem, NULL);
+  assert_int_equal(tree.refs, tree.kept);
+  assert_memory_equal(tree.nodes, g.plain.nodes,
+                      g.plain.node_count * sizeof(bvh_node));
   arena_free(&mem);
 }
 
