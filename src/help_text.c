@@ -89,6 +89,8 @@ const help_item help_items[] = {
     {NULL, "SIGPIPE",
      "Is ignored: a reader that leaves is an output that could not be "
      "written."},
+    {NULL, "SIGXFSZ",
+     "Is ignored: a file beyond ulimit -f is one that could not be written."},
     {"FILES", "NAME.scene",
      "Read with NAME.obj: cameras, lights, environment, film, materials."},
     {NULL, "XDG_CACHE_HOME/facet, ~/.cache/facet",

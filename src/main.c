@@ -75,8 +75,10 @@ static bool run_bare(int argc, char **argv, int *code) {
 
 int main(int argc, char **argv) {
   double started = clock_seconds();
-  // A closed pipe is an error of writing, with exit status 4, not a death.
+  // A closed pipe is an error of writing, with exit status 4, not a death; nor
+  // is a file beyond the limit of the shell, which may be one of the cache.
   signal(SIGPIPE, SIG_IGN);
+  signal(SIGXFSZ, SIG_IGN);
   int code;
   if (run_bare(argc, argv, &code)) return code;
 

@@ -99,6 +99,16 @@ draw ball nowhere
 ok "no place for a cache is no error" same nowhere without
 XDG_CACHE_HOME=$T/cache
 
+# 500 KiB or 1000, as the shell counts: enough for the picture.
+ok "a limit of the shell is no error" sh -c 'ulimit -f 1000
+  "$1" render "$2/ball.obj" --engine path -r 48x32 --spp 2 -q -o "$2/hurt.png"' \
+  - "$facet" "$T"
+ok "nor is anything left of what did not fit" test "$(kept '*tree*')" = 0
+ok "and the picture is there" same hurt without
+ok "whose own limit is one" sh -c 'ulimit -f 0
+  "$1" render "$2/ball.obj" --engine path -r 48x32 -q --no-cache -o "$2/no.png"
+  test $? = 4 && test ! -e "$2/no.png"' - "$facet" "$T"
+
 # Six at once, none of which finds a file at its start.
 for i in 1 2 3 4 5 6; do draw ball "at$i" -j 1 & done
 wait
