@@ -8,7 +8,7 @@
 
 // Another number when a builder makes another tree, or nodes or triangles are
 // laid out in another way: old files are then ignored.
-enum { VERSION = 1 };
+enum { VERSION = 2 };
 
 static const char KIND[] = "tree";
 

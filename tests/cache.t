@@ -8,7 +8,7 @@ export XDG_CACHE_HOME
 folder=$XDG_CACHE_HOME/facet
 ${CC:-cc} -O1 tests/bench/make_mesh.c -lm -o "$T/make_mesh"
 "$T/make_mesh" ball 52000 >"$T/ball.obj"
-"$T/make_mesh" columns 52000 >"$T/columns.obj"
+"$T/make_mesh" streets 60000 >"$T/streets.obj"
 
 # draw NAME OUT OPTIONS...: a small picture by paths; what --json says is in
 # $T/OUT.json.
@@ -39,13 +39,13 @@ draw other other
 ok "another mesh is not taken for it" came other false
 
 # Few rays: no triangle is cut; many: some are.  Either is kept by itself.
-draw columns few
-draw columns many -r 1600x1200 --spp 1 --crop 0,0,40,40
-draw columns many-plain -r 1600x1200 --spp 1 --crop 0,0,40,40 --no-cache
+draw streets few
+draw streets many -r 1600x1200 --spp 1 --crop 0,0,40,40
+draw streets many-plain -r 1600x1200 --spp 1 --crop 0,0,40,40 --no-cache
 ok "a tree with cut triangles is another tree" came many false
 ok "which has parts" sh -c '! grep -q "\"parts\": 0," "$1/many.json"' - "$T"
-draw columns few-again
-draw columns many-again -r 1600x1200 --spp 1 --crop 0,0,40,40
+draw streets few-again
+draw streets many-again -r 1600x1200 --spp 1 --crop 0,0,40,40
 ok "each comes back for its number of rays" \
   sh -c 'grep -q "parts\": 0,.*from_cache\": true" "$1/few-again.json" &&
          grep -q "parts\": [1-9].*from_cache\": true" "$1/many-again.json"' \
@@ -151,7 +151,7 @@ ok "beyond the limit the oldest goes, of whatever kind" \
   sh -c 'test -z "$(find "$2" -name "ibl-*")" && test -f "$1"' - "$file" "$folder"
 touch -d '1 hour ago' "$file"
 FACET_CACHE_MIB=5 draw ball used
-FACET_CACHE_MIB=5 draw columns few
+FACET_CACHE_MIB=5 draw streets few
 ok "reading a file makes it young" test -f "$file"
 ok "which the one before it was not" test "$(kept 'tree-*')" = 2
 FACET_CACHE_MIB=1 draw other other
