@@ -129,13 +129,14 @@ static light_cell conclude(school *s, uint32_t cell) {
     power += power_of(s->m, i);
   }
   if (cell == 0) s->whole = sum;
-  float known = sum > 0 ? (1 - DOUBT) / (float)sum : 0;
-  float doubt = sum > 0 ? DOUBT / power : 1 / power;
-  float asked = 1;
+  float doubt = sum > 0 ? DOUBT : 1, asked = 1;
   if (sum > 0) asked = float_min((float)(2 * sum / s->whole), 1);
   asked = float_max(asked, LEAST_ASKED);
-  for (uint32_t i = 0; i < s->parts; i++)
-    weights[i] = asked * (known * weights[i] + doubt * power_of(s->m, i));
+  for (uint32_t i = 0; i < s->parts; i++) {
+    float known = sum > 0 ? (float)((double)weights[i] / sum) : 0;
+    weights[i] = (1 - doubt) * known + doubt * (power_of(s->m, i) / power);
+    weights[i] *= asked;
+  }
   return cell_of_weights(s->m, weights);
 }
 

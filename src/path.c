@@ -130,6 +130,7 @@ static size_t note(const wave *w, const vertex *v, const light_sample *l,
   if (log == NULL || l->part == LIGHT_NO_PART) return NO_RECORD;
   float x = 0;
   if (cosine > 0) x = light_mean(l->radiance) * cosine * l->chosen / l->pdf;
+  x = float_min(x, 1e18f);  // whose square is a float
   log->items =
       array_grow(log->items, &log->room, log->count + 1, sizeof *log->items);
   log->items[log->count++] = (light_record){
