@@ -1,6 +1,7 @@
 # Readers of strangers' files under libFuzzer (clang-14, libclang-rt-14-dev):
 #   make fuzz SECONDS=300    each target in turn so long, all cores at a time
 #   make fuzz-afl SECONDS=60 the same inputs under AFL++ (afl++)
+#   make hostile             the unit test and the table, with two sanitizers
 # A finding is left in build/fuzz/; with a name it goes to tests/fuzz/corpus,
 # which tests/test_hostile.c reads ever after.
 
@@ -29,4 +30,13 @@ build/afl/afl_%: tests/fuzz/fuzz.c tests/fuzz/targets.h $(call obj,$(FUZZ_MODULE
 fuzz-afl: afl-build
 	tests/fuzz/run-afl $(SECONDS) $(FUZZ)
 
-.PHONY: fuzz fuzz-build fuzz-afl afl-build
+# Every length and 10,000 changes of each format, and the table of hostile
+# files, with two sanitizers.
+hostile:
+	$(MAKE) --no-print-directory SAN=address,undefined \
+	  build/address-undefined/facet build/address-undefined/tests/test_hostile
+	build/address-undefined/tests/test_hostile
+	LSAN_OPTIONS=suppressions=tests/leaks.supp:print_suppressions=0 \
+	  FACET=build/address-undefined/facet tests/hostile.t
+
+.PHONY: hostile fuzz fuzz-build fuzz-afl afl-build
