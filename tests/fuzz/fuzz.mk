@@ -36,7 +36,7 @@ hostile:
 	$(MAKE) --no-print-directory SAN=address,undefined \
 	  build/address-undefined/facet build/address-undefined/tests/test_hostile
 	build/address-undefined/tests/test_hostile
-	LSAN_OPTIONS=suppressions=tests/leaks.supp:print_suppressions=0 \
+	LSAN_OPTIONS=suppressions=$(CURDIR)/tests/leaks.supp:print_suppressions=0 \
 	  FACET=build/address-undefined/facet tests/hostile.t
 
 .PHONY: hostile fuzz fuzz-build fuzz-afl afl-build
