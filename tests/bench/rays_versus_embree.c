@@ -2,7 +2,7 @@
 //
 //   apt-get install libembree-dev && make && cc -std=gnu11 -O2 -iquote src \
 //     tests/bench/rays_versus_embree.c \
-//     $(ls build/release/src/*.o | grep -v main.o) build/release/shaders.o \
+//     $(ls build/release/src/*.o | grep -v main.o) build/release/*.o \
 //     -lembree3 -lpng -ljpeg -lm -lpthread -ldl -o build/rays_versus_embree
 //   build/rays_versus_embree MESH.obj...
 //
