@@ -3,6 +3,8 @@
 # make figures       those of all chapters
 # make bless-4       accept chapter 4's new pictures as the book's (look first)
 # make test          every test; ends in prove's summary
+# make sanitize      tests under ASan, UBSan, TSan, valgrind
+# make agree         the same bytes from gcc and clang, -O0 to -O3
 # make stress        numbers at their limits, as a table (chapter 16)
 # make bench         measurements that depend on the machine
 # make fuzz          strange files for every reader, SECONDS (300) each
@@ -176,6 +178,21 @@ $(B)/kernel_float.o $(B)/kernel_double.o: $(B)/kernel_%.o: tests/stress/kernel.c
 stress: $(B)/stress
 	$(B)/stress $(STRESS)
 
+# The suite and some scripts under the sanitizers, a picture under valgrind;
+# pictures by gcc and clang, with and without optimisation, byte for byte.
+# Longer than `make test`.
+SANITIZED := build/address-undefined build/thread
+sanitize: all
+	+for s in address,undefined thread; do \
+	  $(MAKE) --no-print-directory SAN=$$s \
+	    build/$$(echo $$s | tr , -)/facet unit || exit; done
+	tests/sanitize.sh $(SANITIZED)
+agree: all
+	+$(MAKE) --no-print-directory VARIANT=O0 CFLAGS=-O0 build/O0/facet
+	+$(MAKE) --no-print-directory VARIANT=clang CC=clang-14 build/clang/facet
+	+$(MAKE) --no-print-directory VARIANT=clang-O3 CC=clang-14 CFLAGS=-O3 build/clang-O3/facet
+	tests/agree.sh build/release/facet build/O0/facet build/clang/facet build/clang-O3/facet
+
 bench: all
 	tests/bench/run
 
@@ -242,6 +259,6 @@ deb:
 clean:
 	rm -rf build
 
-.PHONY: all figures weave unit build-tests test stress bench book format install uninstall deb clean \
+.PHONY: all figures weave unit build-tests test stress sanitize agree bench book format install uninstall deb clean \
         $(foreach n,$(CHAPTERS),draw-$(n) chapter-$(n) bless-$(n))
 -include $(shell find build -name '*.d' 2>/dev/null)
