@@ -619,7 +619,7 @@ typedef float (*timed)(const void *context, uint32_t i);
 
 static void print_time(const char *what, timed call, const void *context,
                        uint32_t n) {
-  double best = INFINITY;
+  double best = HUGE_VAL;
   volatile float sink = 0;
   for (int run = 0; run < 9; run++) {
     double start = clock_seconds();
