@@ -62,16 +62,16 @@ all="--spp 9 --aov normal,depth,albedo,variance,samples"
 # shellcheck disable=SC2086
 render $all -o one.png && render $all -o one.pfm
 # shellcheck disable=SC2086
-for n in 1 2 3 8; do
+for shards in 1 2 3 8; do
   rm -f s?.part
-  for i in $(seq $n); do render $all -j $((1 + i % 3)) --shard $i/$n -o s$i.part; done
+  for i in $(seq $shards); do render $all -j $((1 + i % 3)) --shard $i/$shards -o s$i.part; done
   merge s?.part -o m.png && merge s?.part -o m.pfm
   differ=
   for f in png pfm normal.pfm depth.pfm albedo.pfm variance.pfm samples.pfm; do
     cmp -s one.$f m.$f || differ="$differ $f"
   done
-  if [ -z "$differ" ]; then pass "$n shards merged: the bytes of one run, with all AOVs"
-  else fail "$n shards merged: other bytes in$differ"; fi
+  if [ -z "$differ" ]; then pass "$shards shards merged: the bytes of one run, with all AOVs"
+  else fail "$shards shards merged: other bytes in$differ"; fi
 done
 develop="--exposure -1 --tonemap aces --depth 16 --post frosted=3"
 # shellcheck disable=SC2086
