@@ -137,12 +137,18 @@ took=$((($(date +%s%N) - start) / 1000000))
 awk -v t="$took" 'BEGIN { srand(16); for (i = 0; i < 20; i++) printf "%.3f\n", rand() * 0.8 * t / 1000 }' >moments
 same=0 killed=0 resumed=0 litter=0
 while read -r moment; do
-  rm -f k.part k.png
-  "$facet" render a.scene --engine path -q --spp 700 --checkpoint k.part --every 0.02 -o k.png &
-  sleep "$moment"
-  kill -9 $! 2>/dev/null
-  wait $! 2>/dev/null
-  [ $? = 137 ] && killed=$((killed + 1))
+  code=0
+  # A run that was over before its moment, as others made room, is killed sooner.
+  while [ $code != 137 ] && [ "$moment" != 0.000 ]; do
+    rm -f k.part k.png
+    "$facet" render a.scene --engine path -q --spp 700 --checkpoint k.part --every 0.02 -o k.png &
+    sleep "$moment"
+    kill -9 $! 2>/dev/null
+    wait $! 2>/dev/null
+    code=$?
+    moment=$(awk -v t="$moment" 'BEGIN { printf "%.3f", t / 2 }')
+  done
+  [ $code = 137 ] && killed=$((killed + 1))
   no_litter || litter=$((litter + 1))
   [ -e k.part ] && resumed=$((resumed + 1))
   run --checkpoint k.part --resume -o k.png
