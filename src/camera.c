@@ -17,18 +17,21 @@ static float half_height(float fov_deg) {
 
 bool camera_view_of(camera_view *out, const camera *c, int width, int height,
                     error *err) {
+  const char *gap = c->name == NULL ? "" : " ";
   const char *name = c->name == NULL ? "" : c->name;
   if (!vec3_finite(c->eye) || !vec3_finite(c->target) || !vec3_finite(c->up))
-    return fail(err, "camera %s: eye, target and up must be finite", name);
+    return fail(err, "camera%s%s: eye, target and up must be finite", gap,
+                name);
   if (!(c->fov_deg > 0 && c->fov_deg < 180))
-    return fail(err, "camera %s: fov %g, expected 0 < fov < 180 degrees", name,
-                (double)c->fov_deg);
+    return fail(err, "camera%s%s: fov %g, expected 0 < fov < 180 degrees", gap,
+                name, (double)c->fov_deg);
   vec3 forward = vec3_unit(vec3_sub(c->target, c->eye));
   if (!(fabsf(vec3_length(forward) - 1) < 0.01f))
-    return fail(err, "camera %s: eye and target are the same point", name);
+    return fail(err, "camera%s%s: eye and target are the same point", gap,
+                name);
   vec3 side = vec3_cross(forward, vec3_unit(c->up));
   if (!(vec3_length(side) > CAMERA_MIN_SINE))
-    return fail(err, "camera %s: up is 0 or along the view", name);
+    return fail(err, "camera%s%s: up is 0 or along the view", gap, name);
   side = vec3_unit(side);
   vec3 upright = vec3_cross(side, forward);
   float pixel = 2 * half_height(c->fov_deg) / (float)height;

@@ -188,6 +188,7 @@ static int read_old(cmd_keep *k) {
   old.complete = false;
   k->part = old;
   k->resumed = true;
+  k->before = old.tally.samples;
   return EXIT_DONE;
 }
 
@@ -305,6 +306,7 @@ void cmd_keep_json(json *j, const cmd_keep *k) {
   json_open(j, "checkpoint", '{');
   json_text(j, "path", k->path);
   json_flag(j, "resumed", k->resumed);
+  json_count(j, "before", (unsigned long long)k->before);
   json_count(j, "writes", (unsigned long long)k->writes);
   json_number(j, "seconds", k->seconds);
   json_close(j, '{');

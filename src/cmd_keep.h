@@ -23,6 +23,7 @@ typedef struct cmd_keep {
   int writes;
   double seconds;      // that they took
   bool resumed, lost;  // the last write failed
+  uint64_t before;     // samples that were there
 } cmd_keep;
 
 // What the command line says; an exit code.

@@ -133,6 +133,10 @@ static void print_line(const plan_line *l, plan_stage stage, FILE *out) {
 void cmd_plan_print(const plan *p, FILE *out) {
   fprintf(out, "plan of the %s engine%s\n", p->of.path ? "path" : "raster",
           p->of.no_skip ? ", nothing skipped" : "");
+  if (p->of.before > 0)
+    fprintf(out,
+            "counts are of this run, which went on from %" PRIu64 " samples\n",
+            p->of.before);
   for (int i = 0; i < PLAN_STAGES; i++)
     if (p->line[i].told) print_line(&p->line[i], (plan_stage)i, out);
 }

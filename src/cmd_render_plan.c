@@ -34,7 +34,8 @@ void render_plan_note_paths(render_job *j) {
   plan_note(p, PLAN_TRIANGLES,
             j->shot.scene.mesh.triangle_count - t->binary.dropped, -1, 0);
   plan_note(p, PLAN_PATHS, r->paths.followed, r->seconds, 0);
-  if (p->of.samples == 0) p->line[PLAN_PATHS].all = r->samples;
+  p->of.before = j->keep.before;
+  if (p->of.samples == 0) p->line[PLAN_PATHS].all = r->samples - p->of.before;
   plan_note(p, PLAN_LAMPS, j->shot.scene.light_count, -1, 0);
   plan_note(p, PLAN_ENV_TABLE, e->columns != NULL, -1,
             2.0 * sizeof(float) * e->width * e->height);

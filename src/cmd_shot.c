@@ -137,6 +137,18 @@ static void take_triple(vec3 *out, const shot *s, option_id id) {
   if (v->given) *out = (vec3){v->number[0], v->number[1], v->number[2]};
 }
 
+// No camera can see all of it from a place that is a float.
+static int too_far(const shot *s) {
+  error err;
+  vec3 lo = s->scene.lo, hi = s->scene.hi;
+  fail(&err,
+       "%s: too large to be seen whole, from %g %g %g to %g %g %g; expected "
+       "coordinates well below 1e37, or a camera",
+       s->o->operands[0], (double)lo.x, (double)lo.y, (double)lo.z,
+       (double)hi.x, (double)hi.y, (double)hi.z);
+  return refuse_input(s, &err);
+}
+
 // The camera: named, first or framed, then changed by the flags.
 static int choose_camera(shot *s) {
   const option_value *v = s->o->value;
@@ -154,6 +166,8 @@ static int choose_camera(shot *s) {
     return EXIT_DONE;
   bool by_flag = v[OPT_EYE].given || v[OPT_TARGET].given || v[OPT_UP].given ||
                  v[OPT_FOV].given;
+  if (!found && !vec3_finite(s->camera.eye) && !v[OPT_EYE].given)
+    return too_far(s);
   return cmd_fail(s->o, by_flag ? EXIT_USAGE : EXIT_INPUT, "%s", err.text);
 }
 

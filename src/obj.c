@@ -170,6 +170,8 @@ static const tally_text TALLY_TEXT[OBJ_TALLY_COUNT] = {
     [OBJ_TALLY_NOT_FINITE] = {REPORT_WARNING,
                               "vertex with a number that is not finite",
                               "vertices with numbers that are not finite"},
+    [OBJ_TALLY_FAR] = {REPORT_WARNING, "vertex beyond 1e37",
+                       "vertices beyond 1e37"},
     [OBJ_TALLY_BAD_SMOOTH] = {REPORT_WARNING,
                               "smoothing group that is no number taken as off",
                               "smoothing groups that are no number taken as "

@@ -27,10 +27,14 @@ typedef struct obj_event {
   int64_t value;        // smoothing group; line of usemtl, mtllib
 } obj_event;
 
+// Whoever wants to see a box of this size whole must stand where floats end.
+#define OBJ_FAR 1e37f
+
 // What is counted, with the line where it was first seen.
 typedef enum obj_tally_kind {
   OBJ_TALLY_SHORT_FACE,
   OBJ_TALLY_NOT_FINITE,
+  OBJ_TALLY_FAR,
   OBJ_TALLY_BAD_SMOOTH,
   OBJ_TALLY_EXTRA,
   OBJ_TALLY_POINT,

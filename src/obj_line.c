@@ -93,7 +93,10 @@ static void line_position(obj_chunk *c, span line, uint64_t number) {
     return;
   }
   if (n == 5 || n > 6) tally(c, OBJ_TALLY_EXTRA, number);
-  obj_add_position(c, (vec3){x[0], x[1], x[2]});
+  vec3 p = {x[0], x[1], x[2]};
+  if (vec3_finite(p) && vec3_peak(vec3_abs(p)) > OBJ_FAR)
+    tally(c, OBJ_TALLY_FAR, number);
+  obj_add_position(c, p);
   if (n >= 6) add_color(c, (vec3){x[3], x[4], x[5]});
   if (n < 6 && c->has_color) add_color(c, vec3_all(1));
 }

@@ -39,7 +39,8 @@ static const char *fast_position(obj_chunk *c, const char *p, const char *end) {
   vec3 v;
   if (c->has_color) return NULL;
   p = fast_three(p, end, &v);
-  if (p != NULL) obj_add_position(c, v);
+  if (p == NULL || vec3_peak(vec3_abs(v)) > OBJ_FAR) return NULL;
+  obj_add_position(c, v);
   return p;
 }
 

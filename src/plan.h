@@ -76,6 +76,7 @@ typedef struct plan_request {
   uint64_t samples;         // in all, 0 where time or error ends the run
   bool estimate, adaptive;  // somebody hears of the error; it decides
   bool kept;                // sums are kept for another run
+  uint64_t before;          // samples that another run took
   bool frosted;
   bool no_skip;  // everything counts as needed
 } plan_request;

@@ -207,6 +207,19 @@ ok "variance: skipped with it" grep -q '^variance *skipped' err
 ok "done when somebody does" grep -q '^error estimate *done' err
 ok "and the picture does not know" cmp a.pfm b.pfm
 
+# Of a picture that is gone on with, it counts what this run did, and says so.
+"$facet" render -q --engine path lit.scene --spp 2 --checkpoint c.part -o c.pfm
+"$facet" render --explain --engine path lit.scene --spp 6 --checkpoint c.part --resume \
+  --json -o c.pfm >c.json 2>err
+ok "after --resume: this run's counts" python3 -c "
+import json
+run = json.load(open('c.json'))
+paths = [l for l in run['plan'] if l['stage'] == 'paths'][0]
+assert (paths['did'], paths['all']) == (4 * 3072, 4 * 3072), paths
+assert (run['checkpoint']['before'], run['samples']) == (2 * 3072, 6 * 3072)"
+ok "of how many samples before, is said" grep -qx \
+  'counts are of this run, which went on from 6144 samples' err
+
 # A crop is its own pixels, and for paths those of the whole picture.
 run whole --engine path lit.scene --spp 2
 run crop --engine path lit.scene --spp 2 --crop 10,5,30,25
