@@ -1,9 +1,7 @@
 // test_surface.c — points of hits and the rays that leave them.
 
+#include "departures.h"
 #include "num.h"
-#include "rng.h"
-#include "solids.h"
-#include "surface.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,54 +12,6 @@
 
 static long shorter(long n) {
   return getenv("FACET_QUICK") != NULL ? n / 50 : n;
-}
-
-// Uniform in [-1, 1).
-static float random_signed(rng *r) {
-  return 2 * rng_next(r) - 1;
-}
-
-static vec3 random_vector(rng *r) {
-  float x = random_signed(r), y = random_signed(r);
-  return (vec3){x, y, random_signed(r)};
-}
-
-// Uniform over the sphere.
-static vec3 random_direction(rng *r) {
-  for (;;) {
-    vec3 v = random_vector(r);
-    float l2 = vec3_dot(v, v);
-    if (l2 > 1e-4f && l2 <= 1) return vec3_unit(v);
-  }
-}
-
-// A hit that is uniform over a random triangle of n.
-static hit random_hit(rng *r, uint32_t n) {
-  float root = sqrtf(rng_next(r)), b = rng_next(r);
-  uint32_t t = (uint32_t)(rng_next(r) * (float)n);
-  return (hit){.t = 1, .b1 = root * (1 - b), .b2 = root * b, .triangle = t};
-}
-
-// Long double holds sums and products of floats with bits to spare.
-typedef struct wide {
-  long double x, y, z;
-} wide;
-
-static wide wide_of(vec3 a) {
-  return (wide){(long double)a.x, (long double)a.y, (long double)a.z};
-}
-
-static wide wide_sub(wide a, wide b) {
-  return (wide){a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-static wide wide_cross(wide a, wide b) {
-  return (wide){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z,
-                a.x * b.y - a.y * b.x};
-}
-
-static long double wide_dot(wide a, wide b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 // A coordinate of the point with the weights of h.
@@ -105,16 +55,6 @@ static void point_error_is_a_bound(void **state) {
   }
 }
 
-// The angle between ng and the exact normal, in radians, as a sine.
-static double normal_error(const vec3 p[3], vec3 ng) {
-  wide o = wide_of(p[0]), n = wide_of(ng);
-  wide exact =
-      wide_cross(wide_sub(wide_of(p[1]), o), wide_sub(wide_of(p[2]), o));
-  assert_true(wide_dot(exact, n) > 0);
-  wide c = wide_cross(exact, n);
-  return (double)sqrtl(wide_dot(c, c) / wide_dot(exact, exact));
-}
-
 // ng is the normal by the winding, unit to float precision, for needles 1e7
 // times as long as wide and for triangles of 1e-30 and 1e30.
 static void facet_normals_are_exact(void **state) {
@@ -140,35 +80,6 @@ static void facet_normals_are_exact(void **state) {
   }
 }
 
-// What rays that leave a closed convex shape do: outwards they must hit
-// nothing, inwards something.
-typedef struct departures {
-  long self_hits, leaks;
-} departures;
-
-static departures depart(const scene *w, const bvh *tree, long rays, rng *r) {
-  departures d = {0, 0};
-  for (long i = 0; i < rays; i++) {
-    hit h = random_hit(r, (uint32_t)w->mesh.triangle_count), other;
-    vec3 out = random_direction(r);
-    surface at = surface_at(w, &h, out);
-    if (vec3_dot(out, at.ng) < 0) out = vec3_neg(out);
-    ray q = surface_ray(&at, out);
-    d.self_hits += bvh_closest(tree, &q, &other);
-    q = surface_ray(&at, vec3_neg(out));
-    d.leaks += !bvh_closest(tree, &q, &other);
-  }
-  return d;
-}
-
-static solid solid_number(int i, arena *mem) {
-  solid s = i == 0   ? solid_icosphere(mem, 2)
-            : i == 1 ? solid_cube(mem)
-                     : solid_tetrahedron(mem);
-  if (i > 0) solid_turn(&s);
-  return s;
-}
-
 // Of 10^6 rays that leave a closed convex mesh outwards none hits it, and of
 // 10^6 inwards none misses, for sizes of 1e-6 to 1e6 and at 1e6 from the
 // origin, where a float has steps of 1/16.
@@ -178,13 +89,10 @@ static void rays_neither_stick_nor_leak(void **state) {
   const float far[8] = {0, 0, 0, 0, 0, 1e6f, 1e6f, 1e6f};
   rng r = rng_of(8, 3, 0);
   for (int k = 0; k < 8; k++)
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < DEPARTURE_SOLIDS; i++) {
       arena mem = {0};
-      solid s = solid_number(i, &mem);
-      solid_place(&s, scale[k], (vec3){far[k], 0.7f * far[k], -0.9f * far[k]});
-      scene w = solid_scene(&s, false);
-      bvh tree = solid_tree(&s, &mem);
-      departures d = depart(&w, &tree, shorter(42000), &r);
+      solid s = solid_number(i, scale[k], far[k], &mem);
+      departures d = depart(&s, shorter(42000), &r);
       if (d.self_hits + d.leaks > 0)
         fail_msg("solid %d, size %g, at %g: %ld self-hits, %ld leaks", i,
                  (double)scale[k], (double)far[k], d.self_hits, d.leaks);

@@ -1,71 +1,24 @@
 // geometry.c — rays that leave surfaces, triangles that are none, and rays that
 // are none.
 
-#include "../solids.h"
+#include "../departures.h"
 
 #include "../shapes.h"
 #include "bvh_split.h"
-#include "rng.h"
 #include "stress.h"
-#include "surface.h"
 #include "wide.h"
 
 #include <string.h>
 
-static float random_signed(rng *r) {
-  return 2 * rng_next(r) - 1;
-}
-
-static vec3 random_vector(rng *r) {
-  float x = random_signed(r), y = random_signed(r);
-  return (vec3){x, y, random_signed(r)};
-}
-
-static vec3 random_direction(rng *r) {
-  for (;;) {
-    vec3 v = random_vector(r);
-    float l2 = vec3_dot(v, v);
-    if (l2 > 1e-4f && l2 <= 1) return vec3_unit(v);
-  }
-}
-
-static hit random_hit(rng *r, uint32_t n) {
-  float root = sqrtf(rng_next(r)), b = rng_next(r);
-  uint32_t t = (uint32_t)(rng_next(r) * (float)n);
-  return (hit){.t = 1, .b1 = root * (1 - b), .b2 = root * b, .triangle = t};
-}
-
-// Rays that leave a closed convex mesh: outwards they must meet nothing,
-// inwards something.
-static double departures(solid *of, size_t rays, rng *r, arena *mem) {
-  scene w = solid_scene(of, false);
-  bvh tree = solid_tree(of, mem);
-  double wrong = 0;
-  for (size_t i = 0; i < rays; i++) {
-    hit h = random_hit(r, of->triangles), other;
-    vec3 out = random_direction(r);
-    surface at = surface_at(&w, &h, out);
-    if (vec3_dot(out, at.ng) < 0) out = vec3_neg(out);
-    ray q = surface_ray(&at, out);
-    wrong += bvh_closest(&tree, &q, &other);
-    q = surface_ray(&at, vec3_neg(out));
-    wrong += !bvh_closest(&tree, &q, &other);
-  }
-  return wrong;
-}
-
-// An icosphere, a cube or a tetrahedron of that size, at that distance.
+// All solids of that size, at that distance: rays that stick or leak.
 static double depart_all(stress *s, float size, float far, size_t rays) {
   double wrong = 0;
   rng r = rng_of(61, (uint64_t)(size * 1e6f) + s->slice, (uint64_t)far);
-  for (int k = 0; k < 3; k++) {
+  for (int k = 0; k < DEPARTURE_SOLIDS; k++) {
     arena mem = {0};
-    solid of = k == 0   ? solid_icosphere(&mem, 2)
-               : k == 1 ? solid_cube(&mem)
-                        : solid_tetrahedron(&mem);
-    if (k > 0) solid_turn(&of);
-    solid_place(&of, size, (vec3){far, 0.7f * far, -0.9f * far});
-    wrong += departures(&of, rays / 6, &r, &mem);
+    solid of = solid_number(k, size, far, &mem);
+    departures d = depart(&of, (long)rays / 6, &r);
+    wrong += (double)(d.self_hits + d.leaks);
     arena_free(&mem);
   }
   return wrong;
@@ -107,22 +60,8 @@ static void slivers(stress *s) {
     hit h = random_hit(&r, 1);
     surface at = surface_at(&w, &h, across);
     wrong += !vec3_finite(at.p) || !vec3_finite(at.ng);
-    long double a[3], b[3], c[3], m = 0, k = 0;
-    const float *q[3] = {&p[0].x, &p[1].x, &p[2].x}, *g = &at.ng.x;
-    for (int d = 0; d < 3; d++) {
-      a[d] = (long double)q[1][d] - (long double)q[0][d];
-      b[d] = (long double)q[2][d] - (long double)q[0][d];
-    }
-    for (int d = 0; d < 3; d++)
-      c[d] = a[(d + 1) % 3] * b[(d + 2) % 3] - a[(d + 2) % 3] * b[(d + 1) % 3];
-    for (int d = 0; d < 3; d++)
-      m += c[d] * c[d];
-    if (!(m > 0)) continue;
-    for (int d = 0; d < 3; d++) {
-      long double off = c[d] / sqrtl(m) - (long double)g[d];
-      k += off * off;
-    }
-    worst = fmax(worst, (double)sqrtl(k));
+    double off = normal_error(p, at.ng);
+    worst = fmax(worst, fmax(off, (double)fabsf(vec3_length(at.ng) - 1)));
   }
   stress_print(s,
                (stress_row){"normals of slivers, aspect 1e7: error in radians",
