@@ -14,11 +14,6 @@
 
 #include <cmocka.h>
 
-// Rays a mesh for the comparison with the list, fewer under a sanitizer.
-static inline uint32_t many(uint32_t n) {
-  return getenv("FACET_QUICK") != NULL ? n / 50 : n;
-}
-
 static inline shape shape_one(arena *mem) {
   shape s = shape_new(mem, "one", 3, 1);
   shape_three(&s, (vec3){0, 0, 0}, (vec3){1, 0, 0.5f}, (vec3){0, 1, 0.25f});
@@ -91,17 +86,6 @@ static inline shape shape_flat(arena *mem, uint32_t n) {
   return s;
 }
 
-// Needles a million times as long as wide.
-static inline shape shape_slivers(arena *mem, uint32_t n) {
-  shape s = shape_new(mem, "slivers", 3 * n, n);
-  uint64_t state = 5;
-  for (uint32_t i = 0; i < n; i++) {
-    vec3 a = shape_point(&state), b = shape_point(&state);
-    shape_three(&s, a, b, vec3_mad(b, 1e-6f, shape_point(&state)));
-  }
-  return s;
-}
-
 // The soup with triangles that cannot be hit between its own.
 static inline shape shape_broken(arena *mem) {
   shape from = shape_soup(mem, 400, 0.5f);
@@ -150,11 +134,11 @@ static inline void shapes_all(shape out[SHAPES], arena *mem) {
   out[n++] = shape_soup(mem, 400, 0.3f);
   out[n++] = shape_moved(shape_soup(mem, 300, 2), "large soup", one, zero);
   out[n++] = shape_flat(mem, 12);
-  out[n++] = shape_slivers(mem, 300);
+  out[n++] = shape_needles(mem, 300, 1e-6f);
   out[n++] = shape_concentric(mem);
   out[n++] = shape_broken(mem);
   out[n++] = shape_thrice(shape_soup(mem, 600, 0.5f), "thrice");
-  out[n++] = shape_thrice(shape_slivers(mem, 300), "slivers thrice");
+  out[n++] = shape_thrice(shape_needles(mem, 300, 1e-6f), "slivers thrice");
   out[n++] = shape_row(mem);
   out[n++] = shape_moved(shape_sphere(mem, 6), "huge", vec3_all(1e12f), zero);
   out[n++] = shape_moved(shape_sphere(mem, 6), "tiny", vec3_all(1e-12f), zero);

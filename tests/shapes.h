@@ -9,6 +9,11 @@
 #include <stdint.h>
 #include <stdlib.h>
 
+// Rays of a comparison with the list, fewer under a sanitizer.
+static inline uint32_t many(uint32_t n) {
+  return getenv("FACET_QUICK") != NULL ? n / 50 : n;
+}
+
 // A mesh that grows while it is made.
 typedef struct shape {
   const char *name;
@@ -61,6 +66,17 @@ static inline shape shape_moved(shape s, const char *name, vec3 scale,
   s.name = name;
   for (uint32_t i = 0; i < s.vertices; i++)
     s.positions[i] = vec3_add(move, vec3_mul(scale, s.positions[i]));
+  return s;
+}
+
+// Needles from wall to wall, 1 / width times as long as wide.
+static inline shape shape_needles(arena *mem, uint32_t n, float width) {
+  shape s = shape_new(mem, "needles", 3 * n, n);
+  uint64_t state = 5;
+  for (uint32_t i = 0; i < n; i++) {
+    vec3 a = shape_point(&state), b = shape_point(&state);
+    shape_three(&s, a, b, vec3_mad(b, width, shape_point(&state)));
+  }
   return s;
 }
 

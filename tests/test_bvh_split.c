@@ -14,11 +14,6 @@
 
 #include <cmocka.h>
 
-// Fewer rays under a sanitizer.
-static uint32_t many(uint32_t n) {
-  return getenv("FACET_QUICK") != NULL ? n / 50 : n;
-}
-
 // Triangles of all lengths between random points, most of them small.
 static shape shape_mix(arena *mem, uint32_t n) {
   shape s = shape_new(mem, "mix", 3 * n, n);
@@ -28,17 +23,6 @@ static shape shape_mix(arena *mem, uint32_t n) {
     float size = i % 3 ? 0.002f : num_exp2(6 * shape_random(&state) - 5);
     vec3 a = vec3_mad(p, size, shape_point(&state));
     shape_three(&s, p, a, vec3_mad(p, size, shape_point(&state)));
-  }
-  return s;
-}
-
-// Needles from wall to wall, a hundred or a million times as long as wide.
-static shape shape_needles(arena *mem, uint32_t n, float width) {
-  shape s = shape_new(mem, "needles", 3 * n, n);
-  uint64_t state = 5;
-  for (uint32_t i = 0; i < n; i++) {
-    vec3 a = shape_point(&state), b = shape_point(&state);
-    shape_three(&s, a, b, vec3_mad(b, width, shape_point(&state)));
   }
   return s;
 }
