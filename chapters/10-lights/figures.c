@@ -1,6 +1,6 @@
 // figures.c — the pictures of chapter 10, and the numbers that its text quotes.
 
-#include "../easel.h"
+#include "../tripod.h"
 #include "bvh.h"
 #include "clock.h"
 #include "light_emission.h"
@@ -157,10 +157,7 @@ static void stage_ready(output *o, stage *s) {
 
 static stage *stage_load(output *o, const char *path, const char *sky) {
   stage *s = ARENA_NEW(&o->mem, stage, 1);
-  scene_options options = {.env = sky};
-  error err;
-  if (!scene_load(&s->scene, path, &options, &o->mem, o->threads, NULL, &err))
-    give_up(&err, 4);
+  open_scene(&s->scene, path, sky, &o->mem, o->threads);
   stage_ready(o, s);
   return s;
 }
@@ -208,14 +205,6 @@ static void add_box(stage *s, vec3 lo, vec3 d, uint32_t of) {
   add_quad(s, vec3_add(lo, x), y, z, of);
   add_quad(s, lo, x, z, of);
   add_quad(s, vec3_add(lo, y), z, x, of);
-}
-
-static camera_view view_of(vec3 eye, vec3 target, float fov, int w, int h) {
-  camera c = {.eye = eye, .target = target, .up = {0, 1, 0}, .fov_deg = fov};
-  camera_view v;
-  error err;
-  if (!camera_view_of(&v, &c, w, h, &err)) give_up(&err, 4);
-  return v;
 }
 
 // How direct light is found; ways that are worse than facet's, too.

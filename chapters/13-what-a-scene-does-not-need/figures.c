@@ -1,6 +1,6 @@
 // figures.c — the pictures of chapter 13, and the numbers that its text quotes.
 
-#include "../easel.h"
+#include "../tripod.h"
 #include "plan_use.h"
 #include "raster.h"
 
@@ -19,21 +19,6 @@ enum { WIDE = 460, HIGH = 300, SIDE = 226 };
 
 static const vec3 RED = {0.7f, 0.03f, 0.02f};
 static const vec3 GREEN = {0.05f, 0.4f, 0.1f}, GREY = {0.6f, 0.6f, 0.6f};
-
-static void load(output *o, const char *path) {
-  error err;
-  scene_options so = {0};
-  if (!scene_load(&o->scene, path, &so, &o->mem, o->threads, NULL, &err))
-    give_up(&err, 4);
-}
-
-static camera_view view_of(vec3 eye, vec3 target, float fov, int w, int h) {
-  camera c = {.eye = eye, .target = target, .up = {0, 1, 0}, .fov_deg = fov};
-  camera_view v;
-  error err;
-  if (!camera_view_of(&v, &c, w, h, &err)) give_up(&err, 4);
-  return v;
-}
 
 // --- which blocks of the garden are in view, from above ---------------------
 
@@ -166,7 +151,7 @@ int main(int argc, char **argv) {
   error err;
   o.threads = pool_new(&o.mem, pool_default_threads());
   if (!gl_open(&o.g, GL_BACKEND_AUTO, &o.mem, &err)) give_up(&err, 5);
-  load(&o, "scenes/garden.scene");
+  open_scene(&o.scene, "scenes/garden.scene", NULL, &o.mem, o.threads);
   blocks_figure(&o);
   caster_figure(&o);
   gl_close(o.g);

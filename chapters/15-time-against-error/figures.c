@@ -1,14 +1,12 @@
 // figures.c — the pictures of chapter 15.
 
-#include "../easel.h"
+#include "../studio.h"
 #include "adaptive.h"
 #include "doubling.h"
 #include "halves.h"
-#include "path.h"
 #include "plot.h"
 #include "render.h"
 #include "text.h"
-#include "wide.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -194,15 +192,10 @@ static void draw_bias(output *o) {
   publish_plot(o, "bias", &p);
 }
 
-// Everything that tracing the garden takes.
+// Everything that tracing the garden in halves takes.
 typedef struct garden {
-  scene scene;
-  bvh binary;
-  wide_tree tree;
-  path_world world;
-  light_set lights;
-  path_tracer tracer;
-  integrator by, twice;
+  studio all;
+  integrator twice;
   halves_walk halves;
   render_guide guide;
   render_settings settings;
@@ -211,23 +204,8 @@ typedef struct garden {
 enum { GARDEN_WIDTH = 228, GARDEN_HEIGHT = 144 };
 
 static void garden_ready(output *o, garden *g) {
-  error err;
-  scene_options so = {0};
-  if (!scene_load(&g->scene, "scenes/garden.scene", &so, &o->mem, o->threads,
-                  NULL, &err))
-    give_up(&err, 4);
-  const mesh *m = &g->scene.mesh;
-  bvh_build(&g->binary, m->positions, m->position_index,
-            (uint32_t)m->triangle_count, BVH_SAH, &o->mem, o->threads);
-  wide_tree_build(&g->tree, &g->binary, &o->mem, o->threads);
-  g->world = (path_world){
-      .scene = &g->scene, .tracer = wide_tracer(&g->tree), .lights = true};
-  g->world.dfg = matter_table(&g->scene, PBR_GGX, &o->mem, o->threads);
-  light_set_build(&g->lights, &g->scene, true, true, &o->mem, o->threads);
-  g->tracer = (path_tracer){
-      .world = &g->world, .lights = &g->lights, .sampler = SAMPLER_SOBOL};
-  g->by = path_integrator(&g->tracer);
-  g->halves = (halves_walk){&g->by, GARDEN_WIDTH * GARDEN_HEIGHT};
+  studio_open(&g->all, "scenes/garden.scene", &o->mem, o->threads);
+  g->halves = (halves_walk){&g->all.by, GARDEN_WIDTH * GARDEN_HEIGHT};
   g->twice = halves_integrator(&g->halves);
   adaptive_settings a = {GARDEN_WIDTH, GARDEN_HEIGHT, 0.08, 1e6};
   g->guide = adaptive_guide(adaptive_new(&a, &o->mem));
@@ -241,17 +219,14 @@ static void garden_ready(output *o, garden *g) {
 }
 
 static void draw_samples(output *o) {
-  error err;
   garden *g = ARENA_NEW(&o->mem, garden, 1);
   garden_ready(o, g);
-  camera_view view;
+  camera_view view =
+      view_by(&g->all.scene.cameras[0], GARDEN_WIDTH, GARDEN_HEIGHT);
   render_result r;
-  if (!camera_view_of(&view, &g->scene.cameras[0], GARDEN_WIDTH, GARDEN_HEIGHT,
-                      &err))
-    give_up(&err, 4);
-  render_run(&r, &g->world, &view, &g->settings, &o->mem, o->threads);
+  render_run(&r, &g->all.world, &view, &g->settings, &o->mem, o->threads);
   image out = image_new(&o->mem, 2 * GARDEN_WIDTH + 4, GARDEN_HEIGHT);
-  float gain = exp2f(g->scene.exposure);
+  float gain = exp2f(g->all.scene.exposure);
   for (int y = 0; y < GARDEN_HEIGHT; y++)
     for (int x = 0; x < out.width; x++) {
       int u = x < GARDEN_WIDTH ? x : x - GARDEN_WIDTH - 4;

@@ -1,15 +1,13 @@
 // figures.c — the pictures of chapter 16, and the numbers that its text quotes.
 
+#include "../studio.h"
 #include "file.h"
 #include "hdr.h"
 #include "part_set.h"
-#include "path.h"
 #include "pfm.h"
-#include "picture.h"
 #include "png.h"
 #include "render.h"
 #include "tga.h"
-#include "wide.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,55 +18,15 @@ typedef struct output {
   const char *folder;
   arena mem;
   pool *threads;
-  scene scene;
-  bvh binary;
-  wide_tree tree;
-  path_world world;
-  light_set lights;
-  path_tracer tracer;
-  integrator by;
+  studio all;
 } output;
-
-static void give_up(const error *err) {
-  fprintf(stderr, "%s\n", err->text);
-  exit(4);
-}
-
-static void publish(output *o, const char *name, image im) {
-  error err;
-  const char *path = arena_format(&o->mem, "%s/%s.png", o->folder, name);
-  if (!picture_write(&im, path, PICTURE_PNG, 8, &err)) give_up(&err);
-}
-
-static void load(output *o, const char *path) {
-  error err;
-  scene_options so = {0};
-  if (!scene_load(&o->scene, path, &so, &o->mem, o->threads, NULL, &err))
-    give_up(&err);
-  const mesh *m = &o->scene.mesh;
-  bvh_build(&o->binary, m->positions, m->position_index,
-            (uint32_t)m->triangle_count, BVH_SAH, &o->mem, o->threads);
-  wide_tree_build(&o->tree, &o->binary, &o->mem, o->threads);
-  o->world = (path_world){
-      .scene = &o->scene, .tracer = wide_tracer(&o->tree), .lights = true};
-  o->world.dfg = matter_table(&o->scene, PBR_GGX, &o->mem, o->threads);
-  light_set_build(&o->lights, &o->scene, true, true, &o->mem, o->threads);
-  o->tracer = (path_tracer){
-      .world = &o->world, .lights = &o->lights, .sampler = SAMPLER_SOBOL};
-  o->by = path_integrator(&o->tracer);
-}
 
 // n pictures of one size, `across` in a row, with 4 white pixels between.
 static image sheet(output *o, const image *im, int n, int across) {
   int w = im->width + 4, h = im->height + 4, rows = (n + across - 1) / across;
-  image out = image_new(&o->mem, across * w - 4, rows * h - 4);
-  for (int i = 0; i < out.width * out.height; i++)
-    out.pixels[i] = vec3_all(1);
+  image out = paper(&o->mem, across * w - 4, rows * h - 4);
   for (int k = 0; k < n; k++)
-    for (int y = 0; y < im->height; y++)
-      memcpy(out.pixels + (k / across * h + y) * out.width + k % across * w,
-             im[k].pixels + y * im->width,
-             (size_t)im->width * sizeof *im->pixels);
+    paste(out, im[k], k % across * w, k / across * h);
   return out;
 }
 
@@ -82,13 +40,9 @@ static image exposed(output *o, const image *im, float stops) {
 }
 
 static render_result render(output *o, const render_settings *set) {
-  error err;
-  camera_view view;
+  camera_view view = view_by(&o->all.scene.cameras[0], set->width, set->height);
   render_result r;
-  if (!camera_view_of(&view, &o->scene.cameras[0], set->width, set->height,
-                      &err))
-    give_up(&err);
-  render_run(&r, &o->world, &view, set, &o->mem, o->threads);
+  render_run(&r, &o->all.world, &view, set, &o->mem, o->threads);
   return r;
 }
 
@@ -130,12 +84,12 @@ static image render_shard(output *o, int i, const char *path) {
   render_settings set = {.width = WIDTH,
                          .height = HEIGHT,
                          .spp = SPP,
-                         .by = &o->by,
+                         .by = &o->all.by,
                          .shard = i % SHARDS,
                          .shards = SHARDS,
                          .keep = &keep};
   image im = render(o, &set).color;
-  if (!part_write(&k.part, path, &err)) give_up(&err);
+  if (!part_write(&k.part, path, &err)) give_up(&err, 4);
   return im;
 }
 
@@ -152,14 +106,14 @@ static void draw_shards(output *o) {
   part_set set;
   part whole;
   report why = {.mem = &o->mem};
-  if (!part_set_read(&set, paths, SHARDS, &o->mem, &err)) give_up(&err);
+  if (!part_set_read(&set, paths, SHARDS, &o->mem, &err)) give_up(&err, 4);
   if (!part_set_fits(&set, &why)) exit(1);
-  if (!part_set_join(&whole, &set, &o->mem, &err)) give_up(&err);
+  if (!part_set_join(&whole, &set, &o->mem, &err)) give_up(&err, 4);
   for (int i = 0; i < SHARDS; i++)
     remove(paths[i]);
   all[3] = film_image(&whole.film[PART_COLOR], &o->mem);
   render_settings one = {
-      .width = WIDTH, .height = HEIGHT, .spp = SPP, .by = &o->by};
+      .width = WIDTH, .height = HEIGHT, .spp = SPP, .by = &o->all.by};
   all[4] = render(o, &one).color;
   all[5] = image_new(&o->mem, WIDTH, HEIGHT);
   int differing = 0;
@@ -169,9 +123,9 @@ static void draw_shards(output *o) {
     all[5].pixels[i] = (vec3){fabsf(d.x), fabsf(d.y), fabsf(d.z)};
   }
   for (int i = 0; i < 5; i++)
-    all[i] = exposed(o, &all[i], o->scene.exposure);
+    all[i] = exposed(o, &all[i], o->all.scene.exposure);
   printf("merged and single: %d pixels differ\n", differing);
-  publish(o, "shards", sheet(o, all, 6, 3));
+  publish(o->folder, "shards", sheet(o, all, 6, 3));
 }
 
 // A colour for each hand of tiles.
@@ -203,7 +157,7 @@ static image deal_map(output *o, int hands, bool straight) {
 
 static void draw_deals(output *o) {
   image two[2] = {deal_map(o, 8, true), deal_map(o, 8, false)};
-  publish(o, "deals", sheet(o, two, 2, 2));
+  publish(o->folder, "deals", sheet(o, two, 2, 2));
 }
 
 // Random numbers by run instead of by pixel: as if each of three runs had
@@ -247,9 +201,9 @@ static image twice_as_large(output *o, const image *im, int side) {
 
 // The same numbers in every tile: by one thread, as it shares a buffer.
 static void draw_seams(output *o) {
-  integrator wrong = {&o->by, seam_place, seam_room, seam_radiance};
+  integrator wrong = {&o->all.by, seam_place, seam_room, seam_radiance};
   render_settings set = {
-      .width = WIDTH, .height = HEIGHT, .spp = 4, .by = &o->by};
+      .width = WIDTH, .height = HEIGHT, .spp = 4, .by = &o->all.by};
   image all[2];
   all[0] = render(o, &set).color;
   pool *threads = o->threads;
@@ -258,7 +212,7 @@ static void draw_seams(output *o) {
   all[1] = render(o, &set).color;
   o->threads = threads;
   set.spp = 1024;
-  set.by = &o->by;
+  set.by = &o->all.by;
   image truth = render(o, &set).color;
   for (int k = 0; k < 2; k++) {
     double sum = 0;
@@ -269,11 +223,11 @@ static void draw_seams(output *o) {
     }
     printf("%s: relative error %.3f\n", k == 0 ? "by pixel" : "by run",
            sqrt(sum / (WIDTH * HEIGHT)));
-    all[k] = exposed(o, &all[k], o->scene.exposure);
+    all[k] = exposed(o, &all[k], o->all.scene.exposure);
   }
   for (int k = 0; k < 2; k++)
     all[k] = twice_as_large(o, &all[k], 40);
-  publish(o, "seams", sheet(o, all, 2, 2));
+  publish(o->folder, "seams", sheet(o, all, 2, 2));
 }
 
 // The mean of two pictures: of their sums, and of their PNGs; both shown darker
@@ -281,18 +235,18 @@ static void draw_seams(output *o) {
 static void draw_clipped(output *o) {
   image all[2], half[2];
   for (int k = 0; k < 2; k++) {
-    o->tracer.seed = (uint64_t)k;
+    o->all.tracer.seed = (uint64_t)k;
     render_settings set = {
-        .width = WIDTH, .height = HEIGHT, .spp = 32, .by = &o->by};
+        .width = WIDTH, .height = HEIGHT, .spp = 32, .by = &o->all.by};
     half[k] = render(o, &set).color;
     all[k] = image_new(&o->mem, WIDTH, HEIGHT);
   }
-  o->tracer.seed = 0;
+  o->all.tracer.seed = 0;
   srgb_table codes = srgb_table_new();
   for (int i = 0; i < WIDTH * HEIGHT; i++)
     for (int c = 0; c < 3; c++) {
       float a = (&half[0].pixels[i].x)[c], b = (&half[1].pixels[i].x)[c];
-      float gain = exp2f(o->scene.exposure);
+      float gain = exp2f(o->all.scene.exposure);
       double x = srgb_decode(srgb_code(&codes, gain * a) / 255.0);
       double y = srgb_decode(srgb_code(&codes, gain * b) / 255.0);
       (&all[0].pixels[i].x)[c] = gain * (a + b) / 2;
@@ -300,7 +254,7 @@ static void draw_clipped(output *o) {
     }
   for (int k = 0; k < 2; k++)
     all[k] = exposed(o, &all[k], -3);
-  publish(o, "clipped", sheet(o, all, 2, 2));
+  publish(o->folder, "clipped", sheet(o, all, 2, 2));
 }
 
 // What became of a picture of which one byte was changed.
@@ -385,23 +339,23 @@ static void draw_changes(output *o) {
   for (int i = 0; i < COUNT; i++) {
     error err;
     FILE *f = file_open(all[i].path, &err);
-    if (f == NULL) give_up(&err);
+    if (f == NULL) give_up(&err, 4);
     all[i].size = fread(all[i].bytes, 1, sizeof all[i].bytes, f);
     fclose(f);
     draw_outcomes(&im, i * (TALL + GAP), &all[i]);
   }
-  publish(o, "changes", im);
+  publish(o->folder, "changes", im);
 }
 
 int main(int argc, char **argv) {
   if (argc != 2) return 2;
   output o = {.folder = argv[1]};
   o.threads = pool_new(&o.mem, pool_default_threads());
-  load(&o, "scenes/garden.scene");
+  studio_open(&o.all, "scenes/garden.scene", &o.mem, o.threads);
   draw_shards(&o);
   draw_deals(&o);
   draw_clipped(&o);
-  load(&o, "scenes/cornell.scene");
+  studio_open(&o.all, "scenes/cornell.scene", &o.mem, o.threads);
   draw_seams(&o);
   draw_changes(&o);
   pool_free(o.threads);
