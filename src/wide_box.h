@@ -17,6 +17,7 @@ typedef struct wide_walk {
                      // one where the ray enters
   float begin;       // tmin, or 0 when that is less or NaN: no hit has t < 0
   float large;       // of slab_ray
+  float reach;       // t, at most, to the far side of the tree along axis kz
   hit best;
   uint32_t axis[3];  // the axes, turned by the shear
   float o[3];        // and the origin
@@ -52,6 +53,7 @@ SIMD void start_slab(wide_walk *w, const wide_tree *t, f4 o, f4 d, f4 a,
   e = f4_pick(back, -e, e);
   f4 enter = o + e, leave = o - e;
   i4 side = back & WIDE;
+  w->reach = k;
   memcpy(w->inv, &inv, sizeof inv);
   memcpy(w->enter, &enter, sizeof enter);
   memcpy(w->leave, &leave, sizeof leave);

@@ -26,17 +26,28 @@ SIMD f8 leaf_error(const leaf_shear *c, f8 det) {
   return f8_div(sum, f8_abs(det));
 }
 
-// Whether the t of single precision is within 12 roundings of the largest z of
-// where the ray meets the triangle.  Then holding it to that point, as
-// slab_hold does for large triangles, changes nothing: the margins of slab_ray
-// are wider.  Not where the shear is denormal, and has fewer digits.
-SIMD uint32_t leaf_firm(const leaf_shear *c, f8 det, f8 sz) {
-  f8 mx = f8_peak(c->x), my = f8_peak(c->y), mz = f8_peak(c->z);
-  f8 least = f8_min(f8_min(c->z[0], c->z[1]), c->z[2]);
-  f8 most = f8_max(f8_max(c->z[0], c->z[1]), c->z[2]);
-  f8 range = f8_mul(f8_all(3), f8_sub(most, least));
-  return f8_lt(f8_mul(f8_mul(mx, my), range), f8_mul(mz, f8_abs(det))) &
-         f8_le(f8_all(FLT_MIN), f8_abs(sz));
+// What the rounding of edge function i may change of t det, in roundings;
+// j and k are its corners.
+SIMD f8 leaf_loss(const leaf_shear *c, f8 t, int i, int j, int k) {
+  f8 sum = f8_add(f8_abs(f8_mul(c->x[k], c->y[j])),
+                  f8_abs(f8_mul(c->y[k], c->x[j])));
+  sum = f8_add(sum, f8_abs(c->e[i]));
+  return f8_mul(sum, f8_abs(f8_sub(c->z[i], t)));
+}
+
+// Whether the t of single precision is within 12 roundings of `reach` of where
+// the ray meets the triangle.  Then holding it to that point, as slab_hold does
+// for large triangles, changes nothing: the margins of slab_ray are wider.
+SIMD uint32_t leaf_firm(const leaf_shear *c, const f8 ez[3], f8 t, f8 size,
+                        f8 reach) {
+  f8 loss = f8_add(leaf_loss(c, t, 0, 1, 2), leaf_loss(c, t, 1, 2, 0));
+  loss = f8_add(loss, leaf_loss(c, t, 2, 0, 1));
+  f8 sum = f8_add(f8_add(f8_abs(ez[0]), f8_abs(ez[1])), f8_abs(ez[2]));
+  loss = f8_add(loss, f8_mul(f8_all(5), sum));
+  loss = f8_add(loss, f8_mul(f8_all(3), f8_mul(f8_abs(t), size)));
+  loss = f8_add(loss, f8_all(FLT_MIN * 0x1p6f));
+  return f8_lt(loss, f8_mul(f8_mul(f8_all(12), reach), size)) &
+         f8_lt(f8_all(0x1p-90f), reach);
 }
 
 // Where the lines of the rays enter and leave the boxes of the triangles
@@ -58,39 +69,52 @@ SIMD void leaf_slab(f8 *near, f8 *far, f8 *side, const leaf_tests *of,
   *side = f8_max(f8_sub(hi, lo), *side);
 }
 
-// What is left of the candidates m: t of triangle_hit and slab_hold for those
-// that single precision decides, the others in *unsure.
-SIMD uint32_t leaf_distances(leaf_shear *c, const leaf_tests *of, uint32_t m,
-                             float out_t[8], float out_det[8],
-                             uint32_t *unsure) {
+// What is known of the candidates of a leaf: t and the sum of the edge
+// functions; `hits` by triangle_hit and slab_hold, where single precision
+// decides; the others in `unsure`, and of these in `close` those of which only
+// t is not known, because its error reaches 0.
+typedef struct leaf_found {
+  float t[8], det[8];
+  uint32_t hits, unsure, close;
+} leaf_found;
+
+// What is left of the candidates m.
+SIMD void leaf_distances(leaf_found *out, leaf_shear *c, const leaf_tests *of,
+                         uint32_t m) {
   f8 zero = f8_all(0), infinite = f8_all(INFINITY);
   f8 sz = TESTS_RAYS(of, sz, shear.sz);
   f8 det = f8_add(f8_add(c->e[0], c->e[1]), c->e[2]), size = f8_abs(det);
   c->z[0] = f8_mul(sz, c->z[0]);
   c->z[1] = f8_mul(sz, c->z[1]);
   c->z[2] = f8_mul(sz, c->z[2]);
-  f8 t = f8_add(f8_mul(c->e[0], c->z[0]), f8_mul(c->e[1], c->z[1]));
-  t = f8_div(f8_add(t, f8_mul(c->e[2], c->z[2])), det);
+  const f8 ez[3] = {f8_mul(c->e[0], c->z[0]), f8_mul(c->e[1], c->z[1]),
+                    f8_mul(c->e[2], c->z[2])};
+  f8 t = f8_div(f8_add(f8_add(ez[0], ez[1]), ez[2]), det);
   f8 small = f8_min(f8_min(f8_abs(c->e[0]), f8_abs(c->e[1])), f8_abs(c->e[2]));
-  uint32_t sure = f8_lt(zero, small) & f8_lt(f8_all(FLT_MIN * 0x1p24f), size) &
-                  f8_lt(size, infinite) & f8_lt(leaf_error(c, det), f8_abs(t));
+  f8 error = leaf_error(c, det);
+  uint32_t clear = f8_lt(zero, small) & f8_lt(f8_all(FLT_MIN * 0x1p24f), size) &
+                   f8_lt(size, infinite);
+  uint32_t sure = clear & f8_lt(error, f8_abs(t));
   f8 near = f8_all(-INFINITY), far = infinite, side = zero;
   leaf_slab(&near, &far, &side, of, 0);
   leaf_slab(&near, &far, &side, of, 1);
   leaf_slab(&near, &far, &side, of, 2);
   f8 tmin = TESTS_RAYS(of, tmin, r.tmin), tmax = TESTS_RAYS(of, tmax, r.tmax);
   f8 best = TESTS_RAYS(of, until, best.t);
-  uint32_t in = f8_lt(zero, t) & f8_le(tmin, t) & f8_le(t, tmax) &
+  uint32_t in = m & f8_lt(zero, t) & f8_le(tmin, t) & f8_le(t, tmax) &
                 f8_lt(t, infinite) & f8_le(near, far) & f8_le(near, best);
   // Held to a point, t stays in the span of the triangle's box.
-  float large = of->p ? of->p->large : of->w->large;
-  uint32_t held = f8_le(side, f8_all(large)) | leaf_firm(c, det, sz);
-  *unsure = m & (~sure | (in & ~held));
+  uint32_t held = f8_le(side, f8_all(of->p ? of->p->large : of->w->large));
+  if ((in & sure & ~held) != 0)
+    held |= leaf_firm(c, ez, t, size, TESTS_RAYS(of, reach, reach)) &
+            f8_le(f8_all(FLT_MIN), f8_abs(sz));
+  out->unsure = m & (~sure | (in & ~held));
+  out->close = m & clear & f8_le(f8_abs(t), error) & f8_lt(error, infinite);
   t = f8_min(far, f8_max(near, t));
-  f8_store(out_t, t);
-  f8_store(out_det, det);
-  return m & sure & held & in & f8_le(tmin, t) & f8_le(t, tmax) &
-         f8_le(t, best);
+  f8_store(out->t, t);
+  f8_store(out->det, det);
+  out->hits = in & sure & held & f8_le(tmin, t) & f8_le(t, tmax) &
+              f8_le(t, best);
 }
 
 #endif

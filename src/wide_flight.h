@@ -25,7 +25,7 @@ typedef struct flight {
   wide_walk w;
   uint32_t index, next, top;
   uint32_t key[FLIGHT_STACK], child[FLIGHT_STACK];
-  uint32_t spare[17];
+  uint32_t spare[16];
 } flight;
 
 _Static_assert(sizeof(flight) % 128 == 64, "an odd number of lines");

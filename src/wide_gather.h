@@ -21,6 +21,7 @@ SIMD void packet_slab(packet *p, const wide_tree *t, const f8 v[8], int h,
     a[k] = f8_abs(v[RAY_D + k]);
   }
   f8 reach = f8_div(far[kz], a[kz]);
+  f8_store(p->reach + HALF * h, reach);
   for (int k = 0; k < 3; k++) {
     packet_axis *x = &p->axis[k];
     f8 o = v[RAY_O + k];

@@ -5,12 +5,14 @@
 
 #include "wide_distance.h"
 
-static vec3 corner_of(const uint32_t *leaf, uint32_t n, uint32_t i) {
-  vec3 p;
-  memcpy(&p.x, leaf + i, sizeof(float));
-  memcpy(&p.y, leaf + n + i, sizeof(float));
-  memcpy(&p.z, leaf + 2 * (size_t)n + i, sizeof(float));
-  return p;
+// The corners of triangle i of the n of a leaf.
+SIMD void leaf_corners(vec3 p[3], const uint32_t *leaf, uint32_t n,
+                       uint32_t i) {
+  for (uint32_t k = 0; k < 3; k++, leaf += 3 * (size_t)n) {
+    memcpy(&p[k].x, leaf + i, sizeof(float));
+    memcpy(&p[k].y, leaf + n + i, sizeof(float));
+    memcpy(&p[k].z, leaf + 2 * (size_t)n + i, sizeof(float));
+  }
 }
 
 // h becomes the best hit if it is nearer, or as near and of a lower number.
@@ -25,8 +27,7 @@ SIMD bool hit_keep(hit *best, const hit *h) {
 static bool leaf_one(const wide_walk *w, const uint32_t *leaf, uint32_t n,
                      uint32_t i, hit *h) {
   vec3 p[3];
-  for (uint32_t k = 0; k < 3; k++)
-    p[k] = corner_of(leaf + 3 * (size_t)k * n, n, i);
+  leaf_corners(p, leaf, n, i);
   h->triangle = leaf[9 * n + i];
   ray r = w->r;
   r.d = ray_flush(r.d);
@@ -41,15 +42,41 @@ static bool leaf_one(const wide_walk *w, const uint32_t *leaf, uint32_t n,
          slab_hold(&s, &r, p, h);
 }
 
+// Whether t_near_zero of triangle.c gives no t > 0 for triangle p.
+static bool leaf_behind(const ray *r, const vec3 p[3]) {
+  vec3 d = ray_flush(r->d);
+  double ax = (double)p[0].x - (double)r->o.x,
+         bx = (double)p[1].x - (double)p[0].x;
+  double ay = (double)p[0].y - (double)r->o.y,
+         by = (double)p[1].y - (double)p[0].y;
+  double az = (double)p[0].z - (double)r->o.z,
+         bz = (double)p[1].z - (double)p[0].z;
+  double cx = (double)p[2].x - (double)p[0].x,
+         cy = (double)p[2].y - (double)p[0].y;
+  double cz = (double)p[2].z - (double)p[0].z;
+  double x0 = by * cz, x1 = bz * cy, y0 = bz * cx, y1 = bx * cz;
+  double z0 = bx * cy, z1 = by * cx;
+  double nx = x0 - x1, ny = y0 - y1, nz = z0 - z1;
+  double side = nx * ax + ny * ay + nz * az;
+  double bound = 8 * 0x1p-53 *
+                 ((fabs(x0) + fabs(x1)) * fabs(ax) +
+                  (fabs(y0) + fabs(y1)) * fabs(ay) +
+                  (fabs(z0) + fabs(z1)) * fabs(az));
+  double speed = nx * (double)d.x + ny * (double)d.y + nz * (double)d.z;
+  return (!(fabs(side) > bound)) | ((side < 0) & (speed > 0)) |
+         ((side > 0) & (speed < 0));
+}
+
 // The candidates m of a leaf: whether there is a better hit, or with `any` one
 // at all.
 SIMD bool leaf_settle(wide_walk *w, leaf_shear *c, const uint32_t *leaf,
                       uint32_t n, uint32_t m, bool any) {
-  float t[8], det[8], v[8], u[8];
-  uint32_t unsure;
+  float v[8], u[8];
+  leaf_found f;
   bool found = false;
   const leaf_tests of = {.w = w, .leaf = leaf, .n = n};
-  m = leaf_distances(c, &of, m, t, det, &unsure);
+  leaf_distances(&f, c, &of, m);
+  m = f.hits;
   if (any && m != 0) return true;
   if (m != 0) {
     f8_store(u, c->e[1]);
@@ -57,12 +84,18 @@ SIMD bool leaf_settle(wide_walk *w, leaf_shear *c, const uint32_t *leaf,
   }
   for (; m != 0; m &= m - 1) {
     uint32_t i = (uint32_t)__builtin_ctz(m);
-    hit h = {t[i], u[i] / det[i], v[i] / det[i], leaf[9 * n + i]};
+    hit h = {f.t[i], u[i] / f.det[i], v[i] / f.det[i], leaf[9 * n + i]};
     found |= hit_keep(&w->best, &h);
   }
-  for (; unsure != 0; unsure &= unsure - 1) {
+  for (uint32_t unsure = f.unsure; unsure != 0; unsure &= unsure - 1) {
     hit h;
-    if (!leaf_one(w, leaf, n, (uint32_t)__builtin_ctz(unsure), &h)) continue;
+    uint32_t i = (uint32_t)__builtin_ctz(unsure);
+    if ((f.close >> i & 1) != 0) {
+      vec3 p[3];
+      leaf_corners(p, leaf, n, i);
+      if (leaf_behind(&w->r, p)) continue;
+    }
+    if (!leaf_one(w, leaf, n, i, &h)) continue;
     if (any) return true;
     found |= hit_keep(&w->best, &h);
   }

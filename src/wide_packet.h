@@ -25,6 +25,7 @@ typedef struct packet {
   float o[3][PACKET];  // the origins, axes turned by the shear
   float sx[PACKET], sy[PACKET];
   float sz[PACKET], tmin[PACKET], tmax[PACKET];
+  float reach[PACKET];
   float begin[PACKET], until[PACKET];
   hit best[PACKET];
   float all_begin, all_until;
@@ -65,7 +66,7 @@ SIMD float packet_most(const float v[PACKET]) {
 
 // Ray i as one that goes alone.
 SIMD wide_walk packet_walk(const packet *p, uint32_t i) {
-  wide_walk w = {.begin = p->begin[i], .large = p->large, .best = p->best[i]};
+  wide_walk w = {.begin = p->begin[i], .large = p->large, .best = p->best[i], .reach = p->reach[i]};
   for (int k = 0; k < 3; k++) {
     w.inv[k] = p->axis[k].inv[i];
     w.enter[k] = p->axis[k].enter[i];

@@ -30,8 +30,9 @@ SIMD void packet_settle(packet *p, const uint32_t *leaf, uint32_t n,
                         bool any) {
   const uint32_t *axis = p->turned;
   f8 at[3][3];
-  float t[8], det[8], u[8], v[8];
-  uint32_t unsure, first = (uint32_t)(HALF * h);
+  float u[8], v[8];
+  uint32_t first = (uint32_t)(HALF * h);
+  leaf_found f;
   choice_corners(at, leaf, n, which);
   leaf_rays r = {{f8_load(p->o[0] + first), f8_load(p->o[1] + first),
                   f8_load(p->o[2] + first)},
@@ -43,16 +44,16 @@ SIMD void packet_settle(packet *p, const uint32_t *leaf, uint32_t n,
   leaf_corner(&c, &r, 2, at[2][axis[0]], at[2][axis[1]], at[2][axis[2]]);
   leaf_inside(&c);
   const leaf_tests of = {.p = p, .h = h, .corner = at};
-  m = leaf_distances(&c, &of, m, t, det, &unsure);
-  f8_store(u, f8_div(c.e[1], f8_load(det)));
-  f8_store(v, f8_div(c.e[2], f8_load(det)));
-  for (; m != 0; m &= m - 1) {
+  leaf_distances(&f, &c, &of, m);
+  f8_store(u, f8_div(c.e[1], f8_load(f.det)));
+  f8_store(v, f8_div(c.e[2], f8_load(f.det)));
+  for (m = f.hits; m != 0; m &= m - 1) {
     uint32_t k = (uint32_t)__builtin_ctz(m);
-    hit at_k = {t[k], u[k], v[k], leaf[9 * n + which->of[k]]};
+    hit at_k = {f.t[k], u[k], v[k], leaf[9 * n + which->of[k]]};
     if (any || hit_keep(&p->best[first + k], &at_k))
       packet_found(p, first + k, any);
   }
-  for (; unsure != 0; unsure &= unsure - 1) {
+  for (uint32_t unsure = f.unsure; unsure != 0; unsure &= unsure - 1) {
     uint32_t k = (uint32_t)__builtin_ctz(unsure);
     hit at_k;
     wide_walk w = packet_walk(p, first + k);
