@@ -86,11 +86,15 @@ static float t_error(const sheared *c, float det) {
          fabsf(det);
 }
 
-// t again, for one that its error bound cannot tell from 0: n.(p0 - o) / n.d
-// in double precision, kept within t +- error, and exactly 0 when the ray
-// starts in the plane of the triangle.  Source: the bound, 8 eps times the
-// permanent of the determinant, follows Shewchuk 1997.
-static float t_near_zero(const ray *r, const vec3 p[3], float t, float error) {
+// Where the plane of a triangle lies: side = n.(p0 - o), 0 unless its sign is
+// certain, and speed = n.d.
+typedef struct plane_way {
+  double side, speed;
+} plane_way;
+
+// In double precision.  Source: the bound, 8 eps times the permanent of the
+// determinant, follows Shewchuk 1997.
+static plane_way way_to_plane(const ray *r, const vec3 p[3]) {
   double ax = (double)p[0].x - (double)r->o.x,
          bx = (double)p[1].x - (double)p[0].x;
   double ay = (double)p[0].y - (double)r->o.y,
@@ -106,10 +110,24 @@ static float t_near_zero(const ray *r, const vec3 p[3], float t, float error) {
                  ((fabs(by * cz) + fabs(bz * cy)) * fabs(ax) +
                   (fabs(bz * cx) + fabs(bx * cz)) * fabs(ay) +
                   (fabs(bx * cy) + fabs(by * cx)) * fabs(az));
-  if (!(fabs(side) > bound)) return 0;
   double speed =
       nx * (double)r->d.x + ny * (double)r->d.y + nz * (double)r->d.z;
-  return float_min(float_max((float)(side / speed), t - error), t + error);
+  return (plane_way){fabs(side) > bound ? side : 0, speed};
+}
+
+// t again, for one that its error bound cannot tell from 0: n.(p0 - o) / n.d
+// in double precision, kept within t +- error, and exactly 0 when the ray
+// starts in the plane of the triangle.
+static float t_near_zero(const ray *r, const vec3 p[3], float t, float error) {
+  plane_way w = way_to_plane(r, p);
+  if (w.side == 0) return 0;
+  return float_min(float_max((float)(w.side / w.speed), t - error), t + error);
+}
+
+bool triangle_ahead(const ray *r, const vec3 p[3]) {
+  plane_way w = way_to_plane(r, p);
+  bool away = w.side > 0 ? w.speed < 0 : w.speed > 0;
+  return w.side != 0 && !away;
 }
 
 bool triangle_hit(const ray *r, const ray_shear *s, vec3 p0, vec3 p1, vec3 p2,

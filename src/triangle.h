@@ -29,6 +29,11 @@ ray_shear ray_shear_of(vec3 d);
 bool triangle_hit(const ray *r, const ray_shear *s, vec3 p0, vec3 p1, vec3 p2,
                   hit *h);
 
+// Whether the plane of a triangle lies ahead of where r starts.  If not, and if
+// t of triangle_hit has an error bound that does not tell it from 0, r misses
+// the triangle.
+bool triangle_ahead(const ray *r, const vec3 p[3]);
+
 // The weights of the three corners where a ray that triangle_hit let through
 // meets the triangle, each within 2^-51 of itself; false for a ray that misses.
 bool triangle_weights(const ray *r, const ray_shear *s, const vec3 p[3],

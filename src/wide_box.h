@@ -13,8 +13,7 @@
 // What one ray needs on its way.
 typedef struct wide_walk {
   float inv[4], enter[4], leave[4];  // slab_ray by axis
-  uint32_t side[4];  // bytes from a lower plane of wide_node.plane[k] to the
-                     // one where the ray enters
+  uint32_t side[4];  // from wide_node.plane[k][0] to where the ray enters
   float begin;       // tmin, or 0 when that is less or NaN: no hit has t < 0
   float large;       // of slab_ray
   float reach;       // t, at most, to the far side of the tree along axis kz

@@ -113,8 +113,8 @@ SIMD void leaf_distances(leaf_found *out, leaf_shear *c, const leaf_tests *of,
   t = f8_min(far, f8_max(near, t));
   f8_store(out->t, t);
   f8_store(out->det, det);
-  out->hits = in & sure & held & f8_le(tmin, t) & f8_le(t, tmax) &
-              f8_le(t, best);
+  out->hits =
+      in & sure & held & f8_le(tmin, t) & f8_le(t, tmax) & f8_le(t, best);
 }
 
 #endif

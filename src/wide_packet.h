@@ -66,7 +66,10 @@ SIMD float packet_most(const float v[PACKET]) {
 
 // Ray i as one that goes alone.
 SIMD wide_walk packet_walk(const packet *p, uint32_t i) {
-  wide_walk w = {.begin = p->begin[i], .large = p->large, .best = p->best[i], .reach = p->reach[i]};
+  wide_walk w = {.begin = p->begin[i],
+                 .large = p->large,
+                 .best = p->best[i],
+                 .reach = p->reach[i]};
   for (int k = 0; k < 3; k++) {
     w.inv[k] = p->axis[k].inv[i];
     w.enter[k] = p->axis[k].enter[i];

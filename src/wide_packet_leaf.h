@@ -43,7 +43,7 @@ SIMD void packet_settle(packet *p, const uint32_t *leaf, uint32_t n,
   leaf_corner(&c, &r, 1, at[1][axis[0]], at[1][axis[1]], at[1][axis[2]]);
   leaf_corner(&c, &r, 2, at[2][axis[0]], at[2][axis[1]], at[2][axis[2]]);
   leaf_inside(&c);
-  const leaf_tests of = {.p = p, .h = h, .corner = at};
+  const leaf_tests of = {.leaf = leaf, .n = n, .p = p, .h = h, .corner = at};
   leaf_distances(&f, &c, &of, m);
   f8_store(u, f8_div(c.e[1], f8_load(f.det)));
   f8_store(v, f8_div(c.e[2], f8_load(f.det)));
@@ -57,7 +57,8 @@ SIMD void packet_settle(packet *p, const uint32_t *leaf, uint32_t n,
     uint32_t k = (uint32_t)__builtin_ctz(unsure);
     hit at_k;
     wide_walk w = packet_walk(p, first + k);
-    if (!leaf_one(&w, leaf, n, which->of[k], &at_k)) continue;
+    bool close = f.close >> k & 1;
+    if (!leaf_one(&w, &of, which->of[k], close, &at_k)) continue;
     if (any || hit_keep(&p->best[first + k], &at_k))
       packet_found(p, first + k, any);
   }
