@@ -8,7 +8,7 @@
 #include "doubling.h"
 #include "path_learn.h"
 #include "plan_use.h"
-#include "vertex_many.h"
+#include "ready.h"
 
 #include <string.h>
 
@@ -184,7 +184,7 @@ static void choose_integrator(render_job *j) {
                     j->shot.threads);
     j->paths = (path_tracer){.world = &j->world,
                              .lights = &j->lights,
-                             .vertices = vertex_many_best(),
+                             .ready = ready_best(),
                              .sampler = (sampler_kind)v[OPT_SAMPLER].words,
                              .seed = seed};
     j->by = path_integrator(&j->paths);

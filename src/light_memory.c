@@ -4,8 +4,8 @@
 
 #include <string.h>
 
-// Cells along the longest side of the scene.
-enum { GRID = 24, SIDES = 6, KEYS = GRID * GRID * GRID * SIDES };
+enum { GRID = LIGHT_GRID, SIDES = LIGHT_SIDES, UNITS = LIGHT_UNITS };
+enum { KEYS = GRID * GRID * GRID * SIDES };
 
 // So many cells, cubed, are neighbours, who know about the same.
 enum { NEAR = 3, SOME = GRID / NEAR, REGIONS = SOME * SOME * SOME * SIDES };
@@ -20,9 +20,8 @@ enum { NEAR = 3, SOME = GRID / NEAR, REGIONS = SOME * SOME * SOME * SIDES };
 // The least probability that any light is asked.
 #define LEAST_ASKED 0.08f
 
-// What probabilities are counted in; where there are more cells than numbers
-// for them, the rest learns nothing.
-enum { UNITS = 1 << 16, MOST_CELLS = 1 << 16 };
+// Where there are more cells than numbers for them, the rest learns nothing.
+enum { MOST_CELLS = 1 << 16 };
 
 static float axis_of(vec3 v, int axis) {
   return axis == 0 ? v.x : axis == 1 ? v.y : v.z;

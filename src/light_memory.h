@@ -14,7 +14,11 @@ typedef struct light_record {
   float square;
 } light_record;
 
-// Whom to ask, in units of 2^-16: part k for numbers after last[k - 1] up to
+// Cells along the longest side of the scene, the sides that a surface may face,
+// and what probabilities are counted in.
+enum { LIGHT_GRID = 24, LIGHT_SIDES = 6, LIGHT_UNITS = 1 << 16 };
+
+// Whom to ask, in units: part k for numbers after last[k - 1] up to
 // last[k], and for those beyond all none.  Two lines of the cache.
 typedef struct light_cell {
   uint16_t last[LIGHT_PARTS_MOST];

@@ -4,13 +4,6 @@
 
 #include "num.h"
 
-// From this many radii on a triangle is far away: over its area the density
-// per steradian varies by a few tenths at most.
-#define FAR_RADII 10
-
-// Closer to the plane than this many radii is on the plane.
-#define LEAST_HEIGHT 1e-4f
-
 bool light_triangle_of(light_triangle *out, vec3 a, vec3 b, vec3 c) {
   light_triangle t = {.a = a, .ab = vec3_sub(b, a), .ac = vec3_sub(c, a)};
   vec3 cross = vec3_cross(t.ab, t.ac);
@@ -29,12 +22,13 @@ bool light_triangle_of(light_triangle *out, vec3 a, vec3 b, vec3 c) {
 
 float light_triangle_height(const light_triangle *t, vec3 p) {
   float height = vec3_dot(t->n, vec3_sub(p, t->a));
-  return height > LEAST_HEIGHT * t->radius ? height : 0;
+  return height > LIGHT_LEAST_HEIGHT * t->radius ? height : 0;
 }
 
 static bool is_far(const light_triangle *t, vec3 p) {
   vec3 d = vec3_sub(t->middle, p);
-  return vec3_dot(d, d) > FAR_RADII * FAR_RADII * t->radius * t->radius;
+  return vec3_dot(d, d) >
+         LIGHT_FAR_RADII * LIGHT_FAR_RADII * t->radius * t->radius;
 }
 
 static float area_pdf(const light_triangle *t, vec3 d, float height) {

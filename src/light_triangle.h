@@ -6,6 +6,13 @@
 
 #include "vec.h"
 
+// From this many radii on a triangle is far away: over its area the density
+// per steradian varies by a few tenths at most.
+#define LIGHT_FAR_RADII 10
+
+// Closer to the plane than this many radii is on the plane.
+#define LIGHT_LEAST_HEIGHT 1e-4f
+
 // A triangle that shines on the side of n, its normal by the winding.
 typedef struct light_triangle {
   vec3 a, ab, ac;  // a corner and the edges to the others

@@ -20,33 +20,24 @@ enum { ENDLESS_FROM = 4096 };
 // The most rays of a path; see path_naive.c.
 enum { MOST_RAYS = 100000 };
 
-// The dimensions of one vertex, counted from 2: the first two place the sample
-// in its pixel.  The direction comes first, because the first dimensions of a
-// sequence are its best.
-enum {
-  USE_DIRECTION = 0,  // two
-  USE_LIGHT = 2,      // two
-  USE_PICK = 4,
-  USE_LOBE = 5,
-  USE_MATTER = 6,
-  USE_LIFE = 7,  // opacity, roulette
-  USES = 8       // what sampler_8 gives
-};
-
 // A path between two waves.
 typedef struct path {
   sampler numbers;
   vec3 sum, throughput;
   vec3 from, from_n;  // where the last direction was sampled, and the normal
   float pdf;          // of that direction; 0 where only a delta could give it
-  int segment, rays, inside;
+  int segment, inside;
 } path;
 
-// A vertex of a path, and the numbers for it.
+// A vertex of a path, the numbers for it, and a lane where more is known: of
+// light only if lit.
 typedef struct stop {
   uint32_t which;
   vertex *at;
   float u[USES];
+  const path_ready *ready;  // NULL: nothing
+  int lane;
+  bool lit;
 } stop;
 
 // Rays that have met a surface, and where: few enough for the fastest cache.
@@ -56,7 +47,9 @@ typedef struct met {
   uint32_t which[MET];
   ray rays[MET];
   hit hits[MET];
+  sampler numbers[MET];
   vertex at[MET];
+  path_ready ready[MET / LANES];
 } met;
 
 // A light sample on its way through the scene: what it brings if nothing is in
@@ -77,6 +70,7 @@ typedef struct wave {
   const path_tracer *by;
   path_stats *stats;
   bool sheets, lights;  // whether there are any
+  bool lit;             // whether ready knows of lights
   path *paths;
   uint32_t *alive;
   ray *rays, *shadow_rays;
@@ -85,6 +79,7 @@ typedef struct wave {
   bool *blocked;
   met *met;
   size_t count, next, shadow_count;
+  uint32_t steps;  // the rays of each path so far
 } wave;
 
 // The weight of a sample of density a where the other way to find it has
@@ -138,22 +133,68 @@ static size_t note(const wave *w, const vertex *v, const light_sample *l,
   return log->count - 1;
 }
 
+// What a light sample meets at a surface: the cosine to it, f, and the density
+// with which the BSDF would have found it.
+typedef struct meeting {
+  float cosine, pdf;
+  vec3 f;
+} meeting;
+
+// Sample a light for v; false where none is met.
+static bool look_alone(const wave *w, const stop *s, const bsdf *b,
+                       light_sample *l, meeting *m) {
+  const vertex *v = s->at;
+  vec3 u = {s->u[USE_PICK], s->u[USE_LIGHT], s->u[USE_LIGHT + 1]};
+  bool found = light_sample_at(w->by->lights, v->at.p, v->n, u, l);
+  vec3 wi = vertex_local(v, l->wi), wo = vertex_local(v, v->wo);
+  if (!found || !(wi.z > 0)) return false;
+  m->cosine = wi.z;
+  m->f = l->delta ? bsdf_eval_point(b, wo, wi) : bsdf_eval(b, wo, wi);
+  m->pdf = bsdf_pdf(b, wo, wi);
+  return true;
+}
+
+// The same where that is ready.
+static bool look_ready(const stop *s, light_sample *l, meeting *m) {
+  const path_ready *r = s->ready;
+  int i = s->lane;
+  *l = (light_sample){.part = r->part[i]};
+  float cosine = r->cosine[i];
+  if (!r->found[i] || !(cosine > 0)) return false;
+  *l = (light_sample){.wi = lanes_at(&r->wi, i),
+                      .radiance = lanes_at(&r->radiance, i),
+                      .pdf = r->pdf[i],
+                      .has_end = true,
+                      .to = lanes_at(&r->to, i),
+                      .part = r->part[i],
+                      .chosen = r->chosen[i]};
+  m->cosine = cosine;
+  m->f = vec3_scale(lanes_at(&r->kd, i), 1 / PI);
+  m->pdf = cosine / PI;
+  return true;
+}
+
+static ray shadow_ray(const stop *s, const light_ray *to) {
+  if (!s->lit) return light_ray_shadow(to, &s->at->at, true);
+  vec3 from = lanes_at(&s->ready->from, s->lane);
+  ray r = ray_from(from, vec3_sub(to->to, from));
+  r.tmax = SURFACE_SHADOW_END;
+  return r;
+}
+
 // Ask one light what it adds at v, if nothing is in between.
 static void ask_light(wave *w, const stop *s, const bsdf *b) {
   const vertex *v = s->at;
   const path *p = &w->paths[s->which];
   w->stats->asked++;
-  vec3 u = {s->u[USE_PICK], s->u[USE_LIGHT], s->u[USE_LIGHT + 1]};
   light_sample l;
-  bool found = light_sample_at(w->by->lights, v->at.p, v->n, u, &l);
-  vec3 wi = vertex_local(v, l.wi), wo = vertex_local(v, v->wo);
-  found = found && wi.z > 0;
-  size_t record = note(w, v, &l, found ? wi.z : 0);
+  meeting m = {0};
+  bool found = s->lit ? look_ready(s, &l, &m) : look_alone(w, s, b, &l, &m);
+  size_t record = note(w, v, &l, found ? m.cosine : 0);
   if (!found) return;
-  vec3 f = l.delta ? bsdf_eval_point(b, wo, wi) : bsdf_eval(b, wo, wi);
-  float scale = wi.z / l.pdf;
-  if (!l.delta) scale *= power_weight(l.pdf, bsdf_pdf(b, wo, wi));
-  vec3 lit = vec3_mul(vec3_mul(p->throughput, f), l.radiance);
+  float scale = m.cosine / l.pdf;
+  if (!l.delta) scale *= power_weight(l.pdf, m.pdf);
+  vec3 lit = vec3_mul(vec3_mul(p->throughput, m.f), l.radiance);
   lit = vec3_scale(lit, scale);
   if (!(vec3_peak(lit) > 0)) {
     if (!w->by->world->thorough) return;
@@ -161,7 +202,7 @@ static void ask_light(wave *w, const stop *s, const bsdf *b) {
   }
   light_ray to = {.is_point = l.has_end, .to = l.to, .wi = l.wi};
   size_t i = w->shadow_count++;
-  w->shadow_rays[i] = light_ray_shadow(&to, &v->at, true);
+  w->shadow_rays[i] = shadow_ray(s, &to);
   w->shadows[i].path = s->which;
   w->shadows[i].lit = lit;
   w->shadows[i].record = record;
@@ -170,8 +211,22 @@ static void ask_light(wave *w, const stop *s, const bsdf *b) {
   w->shadows[i].from = v->at;
 }
 
+// Go on in the direction that is ready.
+static bool scatter_ready(path *p, const stop *s, ray *r) {
+  const path_ready *q = s->ready;
+  int i = s->lane;
+  p->throughput = vec3_mul(p->throughput, lanes_at(&q->weight, i));
+  p->from = s->at->at.p;
+  p->from_n = s->at->n;
+  p->pdf = q->leave_pdf[i];
+  p->inside = 0;
+  *r = ray_from(lanes_at(&q->from, i), lanes_at(&q->leave, i));
+  return vec3_peak(p->throughput) > 0;
+}
+
 // Go on in a direction sampled from b; false where nothing is scattered.
 static bool scatter(path *p, const stop *s, const bsdf *b, ray *r) {
+  if (s->ready != NULL) return scatter_ready(p, s, r);
   const vertex *v = s->at;
   bsdf_sample d;
   if (!bsdf_sample_wi(b, vertex_local(v, v->wo), s->u[USE_LOBE],
@@ -195,11 +250,22 @@ static bool survives(path *p, float u) {
   return true;
 }
 
+// What is met at a vertex.
+static void meet_matter(const wave *w, path *p, stop *s, matter *m) {
+  if (s->ready != NULL) {
+    m->bsdf.kind = BSDF_LAMBERT;
+    m->bsdf.kd = lanes_at(&s->ready->kd, s->lane);
+    return;
+  }
+  *m = vertex_matter(s->at, w->by->world->dfg, s->u[USE_MATTER]);
+  p->throughput = vec3_mul(p->throughput, m->weight);
+}
+
 // One bounce; false where the path ends.
 static bool bounce(wave *w, stop *s, ray *r) {
   path *p = &w->paths[s->which];
-  matter m = vertex_matter(s->at, w->by->world->dfg, s->u[USE_MATTER]);
-  p->throughput = vec3_mul(p->throughput, m.weight);
+  matter m;
+  meet_matter(w, p, s, &m);
   if (w->lights && !bsdf_is_delta(&m.bsdf)) ask_light(w, s, &m.bsdf);
   const path_world *world = w->by->world;
   if (world->lamps_only && p->segment + 1 == world->max_depth) return false;
@@ -223,7 +289,6 @@ static bool goes_through(stop *s) {
 static bool step(wave *w, stop *s, ray *r) {
   path *p = &w->paths[s->which];
   const path_world *world = w->by->world;
-  sampler_8(&p->numbers, 2 + USES * (uint32_t)p->rays, s->u);
   bool goes_on;
   if (goes_through(s)) {
     *r = surface_ray(&s->at->at, r->d);
@@ -233,20 +298,9 @@ static bool step(wave *w, stop *s, ray *r) {
     bool last = world->max_depth > 0 && p->segment >= world->max_depth;
     goes_on = !last && bounce(w, s, r);
   }
-  if (++p->rays < MOST_RAYS) return goes_on;
+  if (w->steps + 1 < MOST_RAYS) return goes_on;
   w->stats->cut += goes_on;
   return false;
-}
-
-static void vertices_at(const wave *w, size_t n) {
-  const scene *world = w->by->world->scene;
-  const met *m = w->met;
-  if (w->by->vertices != NULL) {
-    w->by->vertices(world, m->hits, m->rays, n, w->met->at);
-    return;
-  }
-  for (size_t i = 0; i < n; i++)
-    w->met->at[i] = vertex_at(world, &m->hits[i], m->rays[i].d);
 }
 
 // Memory of lights is large, and each vertex asks elsewhere: fetch what n of
@@ -260,14 +314,57 @@ static void fetch_memory(const wave *w, size_t n) {
   }
 }
 
+// The first dimension of the vertices of this wave.
+static uint32_t dimension_of(const wave *w) {
+  return 2 + USES * w->steps;
+}
+
+// The vertices of n hits.
+static void vertices_at(const wave *w, size_t n) {
+  const scene *world = w->by->world->scene;
+  met *m = w->met;
+  if (w->by->ready != NULL) {
+    ready_job job = {.scene = world,
+                     .lights = w->lit ? w->by->lights : NULL,
+                     .dimension = dimension_of(w),
+                     .hits = m->hits,
+                     .rays = m->rays,
+                     .numbers = m->numbers,
+                     .at = m->at,
+                     .ready = m->ready};
+    w->by->ready(&job, n);
+    return;
+  }
+  for (size_t i = 0; i < n; i++)
+    m->at[i] = vertex_at(world, &m->hits[i], m->rays[i].d);
+  fetch_memory(w, n);
+}
+
+// Vertex i, with its numbers.
+static stop stop_at(const wave *w, size_t i) {
+  met *m = w->met;
+  stop s = {.which = m->which[i], .at = &m->at[i], .lane = (int)(i % LANES)};
+  if (w->by->ready == NULL) {
+    sampler_8(&m->numbers[i], dimension_of(w), s.u);
+    return s;
+  }
+  const path_ready *r = &m->ready[i / LANES];
+  for (int k = 0; k < USES; k++)
+    s.u[k] = r->u[k][s.lane];
+  if (r->matt[s.lane]) {
+    s.ready = r;
+    s.lit = w->lit;
+  }
+  return s;
+}
+
 // Shade n of the paths whose rays have met a surface.
 static void step_some(wave *w, size_t n) {
   met *m = w->met;
   vertices_at(w, n);
-  fetch_memory(w, n);
   for (size_t i = 0; i < n; i++) {
     ray r = m->rays[i];
-    stop s = {.which = m->which[i], .at = &m->at[i]};
+    stop s = stop_at(w, i);
     if (!step(w, &s, &r)) continue;
     w->alive[w->next] = s.which;
     w->rays[w->next++] = r;
@@ -287,6 +384,7 @@ static void step_all(wave *w) {
       continue;
     }
     m->which[n] = w->alive[i];
+    m->numbers[n] = w->paths[w->alive[i]].numbers;
     m->hits[n] = w->hits[i];
     m->rays[n++] = w->rays[i];
     if (n < MET) continue;
@@ -295,6 +393,7 @@ static void step_all(wave *w) {
   }
   step_some(w, n);
   w->count = w->next;
+  w->steps++;
 }
 
 // Add the light samples that arrive.
@@ -337,7 +436,9 @@ static void path_radiance(const void *self, const path_start *starts, size_t n,
   stats->followed += n;
   w->sheets = by->world->thorough || scene_has_sheets(by->world->scene);
   w->lights = by->world->thorough || light_set_any(by->lights);
+  w->lit = w->lights && path_ready_lights(by->lights);
   w->count = n;
+  w->steps = 0;
   for (size_t i = 0; i < n; i++) {
     w->paths[i] =
         (path){.numbers = numbers_of(by, starts[i].pixel, starts[i].sample),

@@ -5,9 +5,8 @@
 #define PATH_H
 
 #include "light.h"
+#include "path_ready.h"
 #include "path_world.h"
-#include "sampler.h"
-#include "vertex.h"
 
 // What a walk writes down of its questions to lights that have a memory.
 typedef struct path_log {
@@ -19,8 +18,8 @@ typedef struct path_log {
 // that it points to lives while it is used.
 typedef struct path_tracer {
   const path_world *world;
-  const light_set *lights;      // of world's scene and lights
-  vertices_function *vertices;  // NULL: vertex_at, one by one
+  const light_set *lights;  // of world's scene and lights
+  ready_function *ready;    // NULL: one by one
   sampler_kind sampler;
   uint64_t seed;
   path_log *log;  // NULL: none

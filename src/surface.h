@@ -41,6 +41,10 @@ ray surface_ray(const surface *s, vec3 w);
 // Source: Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021.
 ray surface_smooth_ray(const surface *s, vec3 w);
 
+// Where a shadow ray ends, as a share of its way: 1 less the 16 roundings that
+// the difference q - o and the hit distance may have between them.
+#define SURFACE_SHADOW_END (1 - 0x1p-20f)
+
 // The same towards the point q, ending just before it: tmax < 1 with d = q -
 // origin.
 ray surface_ray_to(const surface *s, vec3 q, bool smooth);

@@ -36,15 +36,11 @@ ray surface_smooth_ray(const surface *s, vec3 w) {
   return ray_from(o, w);
 }
 
-// Where a shadow ray ends, as a share of its way: 1 less the 16 roundings that
-// the difference q - o and the hit distance may have between them.
-#define SHADOW_END (1 - 0x1p-20f)
-
 ray surface_ray_to(const surface *s, vec3 q, bool smooth) {
   vec3 o = smooth ? surface_smooth_ray(s, s->ng).o
                   : surface_ray(s, vec3_sub(q, s->p)).o;
   ray r = ray_from(o, vec3_sub(q, o));
-  r.tmax = SHADOW_END;
+  r.tmax = SURFACE_SHADOW_END;
   return r;
 }
 

@@ -10,19 +10,10 @@
 #ifndef VERTEX_LANES_H
 #define VERTEX_LANES_H
 
+#include "lanes.h"
 #include "vertex.h"
 
-enum { LANES = 16 };
-
-// A number, a vector, a vector in double precision for every lane.
-typedef struct lanes {
-  float v[LANES];
-} lanes;
-
-typedef struct lanes3 {
-  float x[LANES], y[LANES], z[LANES];
-} lanes3;
-
+// A vector in double precision for every lane.
 typedef struct lanes64 {
   double x[LANES], y[LANES], z[LANES];
 } lanes64;

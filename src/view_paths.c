@@ -5,7 +5,7 @@
 
 #include "film.h"
 #include "path.h"
-#include "vertex_many.h"
+#include "ready.h"
 #include "wide.h"
 
 #include <assert.h>
@@ -69,7 +69,7 @@ view_paths *view_paths_new(const view_paths_settings *set, pool *threads,
   p->world.scene = &p->scene;
   p->film = film_new(mem, set->width, set->height, false);
   p->tracer = (path_tracer){
-      .world = &p->world, .vertices = vertex_many_best(), .seed = set->seed};
+      .world = &p->world, .ready = ready_best(), .seed = set->seed};
   p->by = path_integrator(&p->tracer);
   hire_workers(p);
   p->tiles_across = (set->width + TILE_SIDE - 1) / TILE_SIDE;

@@ -2,7 +2,7 @@
 // same light with whatever memory.
 
 #include "path_learn.h"
-#include "vertex_many.h"
+#include "ready.h"
 #include "worlds.h"
 
 #include <string.h>
@@ -53,7 +53,7 @@ static void walker_ready(walker *k, world *w) {
   light_set_build(&k->lights, &w->scene, true, true, &w->mem, NULL);
   k->tracer = (path_tracer){.world = &w->path,
                             .lights = &k->lights,
-                            .vertices = vertex_many_best(),
+                            .ready = ready_best(),
                             .seed = 3};
   k->by = path_integrator(&k->tracer);
 }

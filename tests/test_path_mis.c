@@ -2,7 +2,7 @@
 // known, and the same pictures as the naive one.
 
 #include "path.h"
-#include "vertex_many.h"
+#include "ready.h"
 #include "worlds.h"
 
 #include <string.h>
@@ -21,7 +21,7 @@ static void walker_ready(walker *k, const path_world *w, sampler_kind kind,
   light_set_build(&k->lights, w->scene, w->lights, true, mem, NULL);
   k->tracer = (path_tracer){.world = w,
                             .lights = &k->lights,
-                            .vertices = vertex_many_best(),
+                            .ready = ready_best(),
                             .sampler = kind,
                             .seed = seed};
   k->by = path_integrator(&k->tracer);

@@ -3,34 +3,9 @@
 
 #include "vertex_many.h"
 #include "wide.h"
-#include "worlds.h"
+#include "world_hits.h"
 
 #include <string.h>
-
-enum { HITS = 6000 };
-
-// Hits of rays from around a world at random points of its triangles.
-static size_t make_hits(const world *w, uint64_t seed, hit *hits, ray *rays) {
-  const mesh *m = &w->scene.mesh;
-  vec3 size = vec3_sub(w->scene.hi, w->scene.lo);
-  size_t n = 0;
-  for (uint64_t i = 0; n < HITS && i < 3 * HITS; i++) {
-    rng r = rng_of(seed, i, 0);
-    vec3 u = {rng_next(&r), rng_next(&r), rng_next(&r)};
-    vec3 from = vec3_add(w->scene.lo, vec3_mul(u, size));
-    size_t t = (size_t)(rng_next(&r) * (float)m->triangle_count);
-    const uint32_t *v = &m->position_index[3 * t];
-    vec3 b = {rng_next(&r), rng_next(&r), rng_next(&r)};
-    b = vec3_scale(b, 1 / (b.x + b.y + b.z));
-    vec3 to = vec3_scale(m->positions[v[0]], b.x);
-    to = vec3_mad(to, b.y, m->positions[v[1]]);
-    to = vec3_mad(to, b.z, m->positions[v[2]]);
-    ray at = ray_from(from, vec3_sub(to, from));
-    if (!w->path.tracer.closest(w->path.tracer.tree, &at, &hits[n])) continue;
-    rays[n++] = at;
-  }
-  return n;
-}
 
 static void assert_same(const void *a, const void *b, size_t bytes) {
   assert_memory_equal(a, b, bytes);
@@ -61,7 +36,7 @@ static void check(const char *name, world *w) {
   hit *hits = ARENA_NEW(&w->mem, hit, HITS);
   ray *rays = ARENA_NEW(&w->mem, ray, HITS);
   vertex *out = ARENA_NEW(&w->mem, vertex, HITS);
-  size_t n = make_hits(w, 3, hits, rays);
+  size_t n = world_hits(w, 3, hits, rays);
   assert_true(n > 40);
   int levels = 0;
   for (int level = 0; level < WIDE_LEVELS; level++) {

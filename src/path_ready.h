@@ -1,0 +1,62 @@
+// path_ready.h — what is found of sixteen vertices together, before their
+// paths go on one by one.
+
+#ifndef PATH_READY_H
+#define PATH_READY_H
+
+#include "lanes.h"
+#include "light.h"
+#include "sampler.h"
+#include "vertex.h"
+
+// The dimensions of one vertex, counted from 2: the first two place the sample
+// in its pixel.  The direction comes first, because the first dimensions of a
+// sequence are its best.
+enum {
+  USE_DIRECTION = 0,  // two
+  USE_LIGHT = 2,      // two
+  USE_PICK = 4,
+  USE_LOBE = 5,
+  USE_MATTER = 6,
+  USE_LIFE = 7,  // opacity, roulette
+  USES = 8       // what sampler_8 gives
+};
+
+// A lane a vertex.  The numbers of all; the rest of those that are matt, which
+// have one lobe and no bumps.
+typedef struct path_ready {
+  float u[USES][LANES];
+  int32_t matt[LANES];
+  lanes3 kd, from;  // albedo; where rays leave
+  // The answer of light_sample_at; the cosine of wi to the normal.
+  int32_t found[LANES];
+  uint32_t part[LANES];
+  lanes3 wi, to, radiance;
+  float pdf[LANES], chosen[LANES], cosine[LANES];
+  // What bsdf_sample_wi gives, in the world.
+  lanes3 leave, weight;
+  float leave_pdf[LANES];
+} path_ready;
+
+// Vertices to be found.  All of lights is asked only where lights is not NULL;
+// it is then such as path_ready_lights says.
+typedef struct ready_job {
+  const scene *scene;
+  const light_set *lights;
+  uint32_t dimension;  // of the first number
+  const hit *hits;
+  const ray *rays;
+  const sampler *numbers;
+  vertex *at;         // complete, with the frame where it is matt
+  path_ready *ready;  // LANES vertices each
+} ready_job;
+
+typedef void ready_function(const ready_job *j, size_t n);
+
+// Whether all lights are triangles.
+static inline bool path_ready_lights(const light_set *l) {
+  return l->near.count > 0 && l->name_count == l->near.count &&
+         l->far_count == 0 && !(l->env.irradiance > 0);
+}
+
+#endif

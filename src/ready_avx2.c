@@ -1,0 +1,12 @@
+// ready_avx2.c — the kernel for AVX2, where the Makefile could ask for
+// it.
+
+#include "ready_levels.h"
+
+#if defined(__AVX2__)
+#include "ready_kernel.h"
+
+ready_function *const ready_avx2 = ready_kernel;
+#else
+ready_function *const ready_avx2 = NULL;
+#endif

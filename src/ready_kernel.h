@@ -1,0 +1,115 @@
+// ready_kernel.h — vertices made ready, compiled once a level.
+
+#ifndef READY_KERNEL_H
+#define READY_KERNEL_H
+
+#include "light_emission.h"
+#include "ready_leave.h"
+#include "ready_numbers.h"
+#include "ready_pick.h"
+#include "ready_triangle.h"
+
+// The albedo of a surface that is matt and has no bumps, by matter.c; false
+// where it is something else.
+static inline bool lane_matt(const surface *s, vec3 *kd) {
+  const material *m = s->material;
+  if (m == NULL || m->kind != MATERIAL_BLINN_PHONG) return false;
+  if (vec3_peak(m->ks) > 0 || m->map_ks.image != NULL) return false;
+  if (m->map_bump.image != NULL || m->map_norm.image != NULL) return false;
+  vec3 c = m->kd;
+  if (m->map_kd.image != NULL) c = vec3_mul(c, texture_rgb(&m->map_kd, s->uv));
+  c = vec3_mul(c, s->color);
+  float down = 1 / float_max(1, vec3_peak(vec3_add(c, m->ks)));
+  *kd = vec3_scale(c, down);
+  return true;
+}
+
+// Lane i as the vertex of its hit, with its frame.
+static inline void lane_finish(ready_work *w, int i, const ready_job *j,
+                               size_t at) {
+  vertex *v = &j->at[at];
+  vec3 kd = {0, 0, 0};
+  lane_scatter(&w->v, i, j->scene, &j->hits[at], &j->rays[at], v);
+  bool matt = !w->v.odd[i] && w->r.matt[i] && lane_matt(&v->at, &kd);
+  lanes_set(&w->r.kd, i, kd);
+  w->r.matt[i] = matt;
+  v->n = lanes_at(&w->n, i);
+  v->t = lanes_at(&w->t, i);
+  v->b = lanes_at(&w->b, i);
+}
+
+// light_emission, which few need to be asked.
+static inline vec3 lane_radiance(const ready_work *w, int i,
+                                 const light_set *l) {
+  const scene *s = l->scene;
+  const light_memory *m = l->memory;
+  uint32_t source = l->near.emitters[w->light.emitter[i]].source;
+  const material *of = &s->materials[s->material_of[source]];
+  if (of->map_ke.image == NULL && !of->passes) return of->ke;
+  float b = w->view.b[i], c = w->view.c[i];
+  if (m == NULL) return light_emission(s, source, b, c);
+  const light_part *p = &m->parts.of[w->r.part[i]];
+  return light_emission(s, source, p->at.x + b * p->ab.x + c * p->ac.x,
+                        p->at.y + b * p->ab.y + c * p->ac.y);
+}
+
+// light_sample_at.
+static inline void ready_lights(ready_work *w, const light_set *l) {
+  ready_pick(w, l);
+  ready_see(w);
+  ready_angle(w);
+  ready_area(w);
+  ready_point(w);
+  for (int i = 0; i < LANES; i++)
+    if (w->r.found[i]) lanes_set(&w->r.radiance, i, lane_radiance(w, i, l));
+}
+
+// sampler_8 of all.
+static inline void ready_draw(ready_work *w, const ready_job *j, size_t from,
+                              int n) {
+  if (j->numbers[from].kind == SAMPLER_SOBOL) {
+    ready_numbers(w, j->dimension);
+    return;
+  }
+  for (int i = 0; i < n; i++) {
+    float u[USES];
+    sampler_8(&j->numbers[from + (size_t)i], j->dimension, u);
+    for (int k = 0; k < USES; k++)
+      w->r.u[k][i] = u[k];
+  }
+}
+
+// Up to LANES of them; lanes beyond n hold the last one again.
+static inline void ready_run(ready_work *w, const ready_job *j, size_t from,
+                             int n) {
+  const light_memory *m = j->lights != NULL ? j->lights->memory : NULL;
+  for (int i = 0; i < LANES; i++) {
+    size_t k = from + (size_t)(i < n ? i : n - 1);
+    lane_gather(&w->v, i, j->scene, &j->hits[k], &j->rays[k]);
+    w->key_lo[i] = (uint32_t)j->numbers[k].key;
+    w->key_hi[i] = (uint32_t)(j->numbers[k].key >> 32);
+    w->index[i] = j->numbers[k].index;
+  }
+  lanes_find(&w->v);
+  ready_frame(w);
+  if (m != NULL) ready_keys(w, m);
+  if (m != NULL) ready_fetch(w, m);
+  ready_draw(w, j, from, n);
+  ready_from(w);
+  for (int i = 0; i < n; i++)
+    lane_finish(w, i, j, from + (size_t)i);
+  for (int i = n; i < LANES; i++)
+    w->r.matt[i] = 0;
+  if (j->lights != NULL) ready_lights(w, j->lights);
+  ready_leave(w);
+}
+
+static void ready_kernel(const ready_job *j, size_t n) {
+  ready_work w = {0};
+  for (size_t i = 0; i < n; i += LANES) {
+    ready_run(&w, j, i, n - i < LANES ? (int)(n - i) : LANES);
+    j->ready[i / LANES] = w.r;
+  }
+}
+
+#endif

@@ -1,0 +1,10 @@
+// ready_levels.h — one kernel a level.
+
+#ifndef READY_LEVELS_H
+#define READY_LEVELS_H
+
+#include "path_ready.h"
+
+extern ready_function *const ready_base, *const ready_avx2, *const ready_avx512;
+
+#endif
