@@ -36,7 +36,7 @@ typedef struct light_place {
 light_place light_place_of(vec3 p, vec3 n);
 
 // Near an upper bound of the irradiance, and 0 only where none can arrive,
-// except from less than LEAST_HEIGHT above a shining triangle.
+// except from less than LIGHT_LEAST_HEIGHT above a shining triangle.
 float light_bound_emitter(const light_emitter *e, const light_place *at);
 float light_bound_group(const light_group *g, const light_place *at);
 

@@ -29,17 +29,6 @@ typedef struct path {
   int segment, inside;
 } path;
 
-// A vertex of a path, the numbers for it, and a lane where more is known: of
-// light only if lit.
-typedef struct stop {
-  uint32_t which;
-  vertex *at;
-  float u[USES];
-  const path_ready *ready;  // NULL: nothing
-  int lane;
-  bool lit;
-} stop;
-
 // Rays that have met a surface, and where: few enough for the fastest cache.
 enum { MET = 64 };
 
@@ -133,13 +122,6 @@ static size_t note(const wave *w, const vertex *v, const light_sample *l,
   return log->count - 1;
 }
 
-// What a light sample meets at a surface: the cosine to it, f, and the density
-// with which the BSDF would have found it.
-typedef struct meeting {
-  float cosine, pdf;
-  vec3 f;
-} meeting;
-
 // Sample a light for v; false where none is met.
 static bool look_alone(const wave *w, const stop *s, const bsdf *b,
                        light_sample *l, meeting *m) {
@@ -154,34 +136,6 @@ static bool look_alone(const wave *w, const stop *s, const bsdf *b,
   return true;
 }
 
-// The same where that is ready.
-static bool look_ready(const stop *s, light_sample *l, meeting *m) {
-  const path_ready *r = s->ready;
-  int i = s->lane;
-  *l = (light_sample){.part = r->part[i]};
-  float cosine = r->cosine[i];
-  if (!r->found[i] || !(cosine > 0)) return false;
-  *l = (light_sample){.wi = lanes_at(&r->wi, i),
-                      .radiance = lanes_at(&r->radiance, i),
-                      .pdf = r->pdf[i],
-                      .has_end = true,
-                      .to = lanes_at(&r->to, i),
-                      .part = r->part[i],
-                      .chosen = r->chosen[i]};
-  m->cosine = cosine;
-  m->f = vec3_scale(lanes_at(&r->kd, i), 1 / PI);
-  m->pdf = cosine / PI;
-  return true;
-}
-
-static ray shadow_ray(const stop *s, const light_ray *to) {
-  if (!s->lit) return light_ray_shadow(to, &s->at->at, true);
-  vec3 from = lanes_at(&s->ready->from, s->lane);
-  ray r = ray_from(from, vec3_sub(to->to, from));
-  r.tmax = SURFACE_SHADOW_END;
-  return r;
-}
-
 // Ask one light what it adds at v, if nothing is in between.
 static void ask_light(wave *w, const stop *s, const bsdf *b) {
   const vertex *v = s->at;
@@ -189,7 +143,8 @@ static void ask_light(wave *w, const stop *s, const bsdf *b) {
   w->stats->asked++;
   light_sample l;
   meeting m = {0};
-  bool found = s->lit ? look_ready(s, &l, &m) : look_alone(w, s, b, &l, &m);
+  bool found =
+      s->lit ? path_ready_light(s, &l, &m) : look_alone(w, s, b, &l, &m);
   size_t record = note(w, v, &l, found ? m.cosine : 0);
   if (!found) return;
   float scale = m.cosine / l.pdf;
@@ -202,7 +157,8 @@ static void ask_light(wave *w, const stop *s, const bsdf *b) {
   }
   light_ray to = {.is_point = l.has_end, .to = l.to, .wi = l.wi};
   size_t i = w->shadow_count++;
-  w->shadow_rays[i] = shadow_ray(s, &to);
+  w->shadow_rays[i] =
+      s->lit ? path_ready_shadow(s) : light_ray_shadow(&to, &v->at, true);
   w->shadows[i].path = s->which;
   w->shadows[i].lit = lit;
   w->shadows[i].record = record;
@@ -211,32 +167,23 @@ static void ask_light(wave *w, const stop *s, const bsdf *b) {
   w->shadows[i].from = v->at;
 }
 
-// Go on in the direction that is ready.
-static bool scatter_ready(path *p, const stop *s, ray *r) {
-  const path_ready *q = s->ready;
-  int i = s->lane;
-  p->throughput = vec3_mul(p->throughput, lanes_at(&q->weight, i));
-  p->from = s->at->at.p;
-  p->from_n = s->at->n;
-  p->pdf = q->leave_pdf[i];
-  p->inside = 0;
-  *r = ray_from(lanes_at(&q->from, i), lanes_at(&q->leave, i));
-  return vec3_peak(p->throughput) > 0;
-}
-
 // Go on in a direction sampled from b; false where nothing is scattered.
 static bool scatter(path *p, const stop *s, const bsdf *b, ray *r) {
-  if (s->ready != NULL) return scatter_ready(p, s, r);
   const vertex *v = s->at;
-  bsdf_sample d;
-  if (!bsdf_sample_wi(b, vertex_local(v, v->wo), s->u[USE_LOBE],
-                      s->u[USE_DIRECTION], s->u[USE_DIRECTION + 1], &d))
+  bsdf_sample d = {.delta = false};
+  if (s->ready != NULL)
+    *r = path_ready_leave(s, &d);
+  else if (!bsdf_sample_wi(b, vertex_local(v, v->wo), s->u[USE_LOBE],
+                           s->u[USE_DIRECTION], s->u[USE_DIRECTION + 1], &d))
     return false;
   p->throughput = vec3_mul(p->throughput, d.weight);
   p->from = v->at.p;
   p->from_n = v->n;
   p->pdf = d.delta ? 0 : d.pdf;
-  *r = vertex_leave(v, b, &d, r->d, &p->inside);
+  if (s->ready != NULL)
+    p->inside = 0;
+  else
+    *r = vertex_leave(v, b, &d, r->d, &p->inside);
   return vec3_peak(p->throughput) > 0;
 }
 
@@ -251,7 +198,7 @@ static bool survives(path *p, float u) {
 }
 
 // What is met at a vertex.
-static void meet_matter(const wave *w, path *p, stop *s, matter *m) {
+static void meet_matter(const wave *w, path *p, const stop *s, matter *m) {
   if (s->ready != NULL) {
     m->bsdf.kind = BSDF_LAMBERT;
     m->bsdf.kd = lanes_at(&s->ready->kd, s->lane);
@@ -303,59 +250,19 @@ static bool step(wave *w, stop *s, ray *r) {
   return false;
 }
 
-// Memory of lights is large, and each vertex asks elsewhere: fetch what n of
-// them will ask for, all at once.
-static void fetch_memory(const wave *w, size_t n) {
-  const light_memory *m = w->by->lights->memory;
-  if (m == NULL) return;
-  for (size_t i = 0; i < n; i++) {
-    const vertex *v = &w->met->at[i];
-    light_memory_fetch(m, light_memory_key(m, v->at.p, v->ns));
-  }
-}
-
-// The first dimension of the vertices of this wave.
-static uint32_t dimension_of(const wave *w) {
-  return 2 + USES * w->steps;
-}
-
 // The vertices of n hits.
 static void vertices_at(const wave *w, size_t n) {
-  const scene *world = w->by->world->scene;
+  const path_tracer *by = w->by;
   met *m = w->met;
-  if (w->by->ready != NULL) {
-    ready_job job = {.scene = world,
-                     .lights = w->lit ? w->by->lights : NULL,
-                     .dimension = dimension_of(w),
-                     .hits = m->hits,
-                     .rays = m->rays,
-                     .numbers = m->numbers,
-                     .at = m->at,
-                     .ready = m->ready};
-    w->by->ready(&job, n);
-    return;
-  }
-  for (size_t i = 0; i < n; i++)
-    m->at[i] = vertex_at(world, &m->hits[i], m->rays[i].d);
-  fetch_memory(w, n);
-}
-
-// Vertex i, with its numbers.
-static stop stop_at(const wave *w, size_t i) {
-  met *m = w->met;
-  stop s = {.which = m->which[i], .at = &m->at[i], .lane = (int)(i % LANES)};
-  if (w->by->ready == NULL) {
-    sampler_8(&m->numbers[i], dimension_of(w), s.u);
-    return s;
-  }
-  const path_ready *r = &m->ready[i / LANES];
-  for (int k = 0; k < USES; k++)
-    s.u[k] = r->u[k][s.lane];
-  if (r->matt[s.lane]) {
-    s.ready = r;
-    s.lit = w->lit;
-  }
-  return s;
+  ready_job job = {.scene = by->world->scene,
+                   .lights = w->lit ? by->lights : NULL,
+                   .dimension = 2 + USES * w->steps,
+                   .hits = m->hits,
+                   .rays = m->rays,
+                   .numbers = m->numbers,
+                   .at = m->at,
+                   .ready = m->ready};
+  (by->ready != NULL ? by->ready : path_ready_alone)(&job, n);
 }
 
 // Shade n of the paths whose rays have met a surface.
@@ -364,7 +271,8 @@ static void step_some(wave *w, size_t n) {
   vertices_at(w, n);
   for (size_t i = 0; i < n; i++) {
     ray r = m->rays[i];
-    stop s = stop_at(w, i);
+    stop s = path_ready_stop(&m->at[i], &m->ready[i / LANES], (int)(i % LANES));
+    s.which = m->which[i];
     if (!step(w, &s, &r)) continue;
     w->alive[w->next] = s.which;
     w->rays[w->next++] = r;

@@ -28,6 +28,7 @@ typedef struct path_ready {
   float u[USES][LANES];
   int32_t matt[LANES];
   lanes3 kd, from;  // albedo; where rays leave
+  bool lit;         // whether lights were asked
   // The answer of light_sample_at; the cosine of wi to the normal.
   int32_t found[LANES];
   uint32_t part[LANES];
@@ -37,6 +38,16 @@ typedef struct path_ready {
   lanes3 leave, weight;
   float leave_pdf[LANES];
 } path_ready;
+
+// A vertex of a path, the numbers for it, and a lane where more is known.
+typedef struct stop {
+  uint32_t which;  // of the paths
+  vertex *at;
+  float u[USES];
+  const path_ready *ready;  // NULL: nothing
+  int lane;
+  bool lit;  // also of light
+} stop;
 
 // Vertices to be found.  All of lights is asked only where lights is not NULL;
 // it is then such as path_ready_lights says.
@@ -52,6 +63,27 @@ typedef struct ready_job {
 } ready_job;
 
 typedef void ready_function(const ready_job *j, size_t n);
+
+// One by one, and none of them matt.
+void path_ready_alone(const ready_job *j, size_t n);
+
+stop path_ready_stop(vertex *at, const path_ready *r, int lane);
+
+// What a light sample meets at a surface: the cosine to it, f, and the density
+// with which the BSDF would have found it.
+typedef struct meeting {
+  float cosine, pdf;
+  vec3 f;
+} meeting;
+
+// What a stop that is lit knows: the light sample, false where there is none or
+// it comes from behind; and the shadow ray to it.
+bool path_ready_light(const stop *s, light_sample *l, meeting *m);
+ray path_ready_shadow(const stop *s);
+
+// What one that is ready knows: the ray that goes on, and how it was sampled
+// but for wi.
+ray path_ready_leave(const stop *s, bsdf_sample *d);
 
 // Whether all lights are triangles.
 static inline bool path_ready_lights(const light_set *l) {

@@ -108,6 +108,7 @@ static void ready_kernel(const ready_job *j, size_t n) {
   ready_work w = {0};
   for (size_t i = 0; i < n; i += LANES) {
     ready_run(&w, j, i, n - i < LANES ? (int)(n - i) : LANES);
+    w.r.lit = j->lights != NULL;
     j->ready[i / LANES] = w.r;
   }
 }

@@ -40,7 +40,7 @@ static inline float lane_turns(float y, float x) {
   t = flat ? t : 0.25f - t;
   t = x < 0 ? 0.5f - t : t;
   t = y < 0 ? 1 - t : t;
-  t = (ax > 0) | (ay > 0) ? t : 0;
+  t = ax + ay > 0 ? t : 0;
   return t < 1 ? t : 0;
 }
 

@@ -1,0 +1,64 @@
+// path_ready.c
+
+#include "path_ready.h"
+
+// Memory of lights is large, and each vertex asks elsewhere: fetch what n of
+// them will ask for, all at once.
+static void fetch_memory(const light_set *l, const vertex *at, size_t n) {
+  const light_memory *m = l != NULL ? l->memory : NULL;
+  for (size_t i = 0; m != NULL && i < n; i++)
+    light_memory_fetch(m, light_memory_key(m, at[i].at.p, at[i].ns));
+}
+
+void path_ready_alone(const ready_job *j, size_t n) {
+  for (size_t i = 0; i < n; i++) {
+    path_ready *r = &j->ready[i / LANES];
+    float u[USES];
+    j->at[i] = vertex_at(j->scene, &j->hits[i], j->rays[i].d);
+    sampler_8(&j->numbers[i], j->dimension, u);
+    for (int k = 0; k < USES; k++)
+      r->u[k][i % LANES] = u[k];
+    r->matt[i % LANES] = 0;
+  }
+  fetch_memory(j->lights, j->at, n);
+}
+
+stop path_ready_stop(vertex *at, const path_ready *r, int lane) {
+  stop s = {.at = at, .lane = lane};
+  for (int k = 0; k < USES; k++)
+    s.u[k] = r->u[k][lane];
+  if (!r->matt[lane]) return s;
+  s.ready = r;
+  s.lit = r->lit;
+  return s;
+}
+
+bool path_ready_light(const stop *s, light_sample *l, meeting *m) {
+  const path_ready *r = s->ready;
+  int i = s->lane;
+  *l = (light_sample){.wi = lanes_at(&r->wi, i),
+                      .radiance = lanes_at(&r->radiance, i),
+                      .pdf = r->pdf[i],
+                      .has_end = true,
+                      .to = lanes_at(&r->to, i),
+                      .part = r->part[i],
+                      .chosen = r->chosen[i]};
+  m->cosine = r->cosine[i];
+  m->f = vec3_scale(lanes_at(&r->kd, i), 1 / PI);
+  m->pdf = m->cosine / PI;
+  return r->found[i] && m->cosine > 0;
+}
+
+ray path_ready_shadow(const stop *s) {
+  vec3 from = lanes_at(&s->ready->from, s->lane);
+  ray to = ray_from(from, vec3_sub(lanes_at(&s->ready->to, s->lane), from));
+  to.tmax = SURFACE_SHADOW_END;
+  return to;
+}
+
+ray path_ready_leave(const stop *s, bsdf_sample *d) {
+  const path_ready *r = s->ready;
+  d->weight = lanes_at(&r->weight, s->lane);
+  d->pdf = r->leave_pdf[s->lane];
+  return ray_from(lanes_at(&r->from, s->lane), lanes_at(&r->leave, s->lane));
+}
