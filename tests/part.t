@@ -327,11 +327,10 @@ if [ "$(id -u)" = 0 ] && mount -t tmpfs -o size=400k none disk 2>/dev/null; then
   exits 4 "a disk for reading only" render --spp 30 --checkpoint disk/c.part --resume -o d.png
   umount disk
 else skip "a full disk, and one for reading only" "no right to mount one"; fi
-exits 5 "no memory for a render" sh -c "ulimit -v 500000
-  exec '$facet' render a.scene -q --engine path -j 1 -r 9000x9000 --checkpoint c.part -o old.png"
+out_of_memory 500000 "no memory for a render" "$facet" render a.scene -q --engine path \
+  -j 1 -r 9000x9000 --checkpoint c.part -o old.png
 render -r 900x900 --spp 1 -o big.part
-exits 5 "no memory for a merge" sh -c "ulimit -v 60000; exec '$facet' merge big.part -o old.png"
-says "out of memory" "is said"
+out_of_memory 60000 "no memory for a merge" "$facet" merge big.part -o old.png
 mkdir fake
 for lib in libOSMesa.so.8 libOSMesa.so.6 libOSMesa.so libEGL.so.1 libEGL.so; do : >fake/$lib; done
 exits 5 "no OpenGL" env LD_LIBRARY_PATH="$PWD/fake" "$facet" render a.scene -q -o old.png

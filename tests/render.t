@@ -199,8 +199,8 @@ exits 2 "the environment as output" "$facet" render a.obj --env e.pfm -o e.pfm
 exits 2 "also by another name" "$facet" render a.obj --env e.pfm -o link.pfm
 exits 2 "the OBJ as output" "$facet" render a.obj --format png -o ./a.obj
 ok "all of them unharmed" sh -c 'cmp e.pfm j1.pfm && grep -q "^f 4 3 2 1" a.obj'
-exits 5 "no memory" sh -c "ulimit -v 500000; exec '$facet' render $path a.obj -j 1 -r 40000x40000"
-says "out of memory" "is said"
+# shellcheck disable=SC2086
+out_of_memory 500000 "no memory" "$facet" render $path a.obj -j 1 -r 40000x40000
 
 # Signals.  env gives back the SIGINT that a shell takes from what runs with &.
 start() { env --default-signal=INT "$facet" render $path a.obj -q "$@" 2>"$T/err" & pid=$!; }

@@ -40,6 +40,15 @@ exits() {
 says() {
   if grep -qF -- "$1" "$T/err"; then pass "$2"; else fail "$2"; fi
 }
+# out_of_memory KB NAME COMMAND...: with so little of it, exit status 5 and why.
+# A sanitizer reserves more addresses than there is memory.
+out_of_memory() {
+  if [ -n "$FACET_SANITIZED" ]; then skip "$2" "not under a sanitizer"; return; fi
+  kb=$1 title=$2
+  shift 2
+  exits 5 "$title" sh -c "ulimit -v $kb; exec \"\$@\"" - "$@"
+  says "out of memory" "is said"
+}
 finish() { echo "1..$n"; }
 
 # A quad and a triangle, at the given path.
