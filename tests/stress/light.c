@@ -6,8 +6,8 @@
 #include "film.h"
 #include "num.h"
 #include "path.h"
+#include "ready.h"
 #include "stress.h"
-#include "vertex_many.h"
 
 #include <string.h>
 
@@ -32,7 +32,7 @@ static double off_by(world *w, stress *s, size_t n, float level,
   light_set_build(&lights, &w->scene, true, true, &w->mem, NULL);
   path_tracer p = {.world = &w->path,
                    .lights = &lights,
-                   .vertices = vertex_many_best(),
+                   .ready = ready_best(),
                    .sampler = SAMPLER_SOBOL,
                    .seed = s->slice};
   integrator by = path_integrator(&p);

@@ -5,8 +5,8 @@
 
 #include "num.h"
 #include "path.h"
+#include "ready.h"
 #include "stress.h"
-#include "vertex_many.h"
 
 #include <string.h>
 
@@ -18,7 +18,7 @@ static render_result draw(world *w, stress *s, const camera_view *v, int side,
   path_naive naive = {&w->path, 11 + s->slice};
   path_tracer looking = {.world = &w->path,
                          .lights = &lights,
-                         .vertices = vertex_many_best(),
+                         .ready = ready_best(),
                          .sampler = SAMPLER_RANDOM,
                          .seed = 12 + s->slice};
   integrator by =
