@@ -136,8 +136,8 @@ static bool look_alone(const wave *w, const stop *s, const bsdf *b,
   return true;
 }
 
-// Ask one light what it adds at v, if nothing is in between.
-static void ask_light(wave *w, const stop *s, const bsdf *b) {
+// The one question of `turns` what a light adds at v, if nothing is in between.
+static void ask_light(wave *w, const stop *s, const bsdf *b, uint32_t turns) {
   const vertex *v = s->at;
   const path *p = &w->paths[s->which];
   w->stats->asked++;
@@ -147,7 +147,7 @@ static void ask_light(wave *w, const stop *s, const bsdf *b) {
       s->lit ? path_ready_light(s, &l, &m) : look_alone(w, s, b, &l, &m);
   size_t record = note(w, v, &l, found ? m.cosine : 0);
   if (!found) return;
-  float scale = m.cosine / l.pdf;
+  float scale = m.cosine / (l.pdf * (float)turns);
   if (!l.delta) scale *= power_weight(l.pdf, m.pdf);
   vec3 lit = vec3_mul(vec3_mul(p->throughput, m.f), l.radiance);
   lit = vec3_scale(lit, scale);
@@ -165,6 +165,19 @@ static void ask_light(wave *w, const stop *s, const bsdf *b) {
   if (!w->sheets) return;
   w->shadows[i].to = to;
   w->shadows[i].from = v->at;
+}
+
+// As many questions as the tracer wants.
+static void ask_lights(wave *w, const stop *s, const bsdf *b) {
+  uint32_t turns = w->by->questions;
+  if (turns <= 1) {
+    ask_light(w, s, b, 1);
+    return;
+  }
+  for (uint32_t i = 0; i < turns; i++) {
+    stop one = path_ready_turn(s, i, turns);
+    ask_light(w, &one, b, turns);
+  }
 }
 
 // Go on in a direction sampled from b; false where nothing is scattered.
@@ -213,7 +226,7 @@ static bool bounce(wave *w, stop *s, ray *r) {
   path *p = &w->paths[s->which];
   matter m;
   meet_matter(w, p, s, &m);
-  if (w->lights && !bsdf_is_delta(&m.bsdf)) ask_light(w, s, &m.bsdf);
+  if (w->lights && !bsdf_is_delta(&m.bsdf)) ask_lights(w, s, &m.bsdf);
   const path_world *world = w->by->world;
   if (world->lamps_only && p->segment + 1 == world->max_depth) return false;
   if (!scatter(p, s, &m.bsdf, r) || !survives(p, s->u[USE_LIFE])) return false;
@@ -344,7 +357,7 @@ static void path_radiance(const void *self, const path_start *starts, size_t n,
   stats->followed += n;
   w->sheets = by->world->thorough || scene_has_sheets(by->world->scene);
   w->lights = by->world->thorough || light_set_any(by->lights);
-  w->lit = w->lights && path_ready_lights(by->lights);
+  w->lit = w->lights && by->questions <= 1 && path_ready_lights(by->lights);
   w->count = n;
   w->steps = 0;
   for (size_t i = 0; i < n; i++) {
@@ -364,16 +377,16 @@ static void path_radiance(const void *self, const path_start *starts, size_t n,
 }
 
 static void *path_room(const void *self, arena *mem) {
-  (void)self;
-  const size_t n = INTEGRATOR_BATCH;
+  const path_tracer *by = self;
+  const size_t n = INTEGRATOR_BATCH, m = n + n * by->questions;
   wave *w = ARENA_NEW(mem, wave, 1);
   w->paths = ARENA_NEW(mem, path, n);
   w->alive = ARENA_NEW(mem, uint32_t, n);
   w->rays = ARENA_NEW(mem, ray, n);
-  w->shadow_rays = ARENA_NEW(mem, ray, n);
+  w->shadow_rays = ARENA_NEW(mem, ray, m);
   w->hits = ARENA_NEW(mem, hit, n);
-  w->shadows = ARENA_NEW(mem, shadow, n);
-  w->blocked = ARENA_NEW(mem, bool, n);
+  w->shadows = ARENA_NEW(mem, shadow, m);
+  w->blocked = ARENA_NEW(mem, bool, m);
   w->met = ARENA_NEW(mem, met, 1);
   return w;
 }

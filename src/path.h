@@ -22,7 +22,8 @@ typedef struct path_tracer {
   ready_function *ready;    // NULL: one by one
   sampler_kind sampler;
   uint64_t seed;
-  path_log *log;  // NULL: none
+  path_log *log;       // NULL: none
+  uint32_t questions;  // to lights at every vertex; 0: one
 } path_tracer;
 
 integrator path_integrator(const path_tracer *p);

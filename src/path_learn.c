@@ -7,8 +7,9 @@
 // Other numbers than those of the picture.
 #define OTHER_SEED UINT64_C(0x6c6561726e)
 
-// A path for so many pixels, but no more than so many paths.
-enum { PIXELS_PER_PATH = 2, MOST_PATHS = 1 << 17 };
+// A path for so many pixels, but no more than so many paths; and so many
+// questions at each of its vertices.
+enum { PIXELS_PER_PATH = 4, MOST_PATHS = 1 << 16, QUESTIONS = 8 };
 
 // After this share of the paths the first lesson ends, and what is remembered
 // must be worth so much.
@@ -105,7 +106,9 @@ bool path_learn(light_set *lights, const path_tracer *by,
   light_memory *memory = ARENA_NEW(mem, light_memory, 1);
   if (!new_memory(memory, lights, mem)) return false;
   arena scratch = {0};
-  school_job job = {.by = by, .lesson = lesson};
+  path_tracer pupil = *by;
+  pupil.questions = QUESTIONS;
+  school_job job = {.by = &pupil, .lesson = lesson};
   job.paths = (size_t)lesson->width * (size_t)lesson->height / PIXELS_PER_PATH;
   if (job.paths > MOST_PATHS) job.paths = MOST_PATHS;
   make_rooms(&job, &scratch, threads);

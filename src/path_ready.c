@@ -2,6 +2,9 @@
 
 #include "path_ready.h"
 
+// The greatest float below 1.
+#define BELOW_1 0x1.fffffep-1f
+
 // Memory of lights is large, and each vertex asks elsewhere: fetch what n of
 // them will ask for, all at once.
 static void fetch_memory(const light_set *l, const vertex *at, size_t n) {
@@ -31,6 +34,23 @@ stop path_ready_stop(vertex *at, const path_ready *r, int lane) {
   s.ready = r;
   s.lit = r->lit;
   return s;
+}
+
+static float turned(float u, float by) {
+  u += by;
+  return u - floorf(u);
+}
+
+// Points by steps of Roberts' sequence, the golden ratio's kin for squares.
+// Source: Roberts 2018, "The Unreasonable Effectiveness of Quasirandom
+// Sequences".
+stop path_ready_turn(const stop *s, uint32_t i, uint32_t turns) {
+  stop t = *s;
+  float n = (float)i;
+  t.u[USE_PICK] = float_min((n + s->u[USE_PICK]) / (float)turns, BELOW_1);
+  t.u[USE_LIGHT] = turned(s->u[USE_LIGHT], 0.7548777f * n);
+  t.u[USE_LIGHT + 1] = turned(s->u[USE_LIGHT + 1], 0.5698403f * n);
+  return t;
 }
 
 bool path_ready_light(const stop *s, light_sample *l, meeting *m) {

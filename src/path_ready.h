@@ -69,6 +69,10 @@ void path_ready_alone(const ready_job *j, size_t n);
 
 stop path_ready_stop(vertex *at, const path_ready *r, int lane);
 
+// The stop with the numbers for question i of so many to lights: one in each
+// part of as many of the first, and other points.
+stop path_ready_turn(const stop *s, uint32_t i, uint32_t turns);
+
 // What a light sample meets at a surface: the cosine to it, f, and the density
 // with which the BSDF would have found it.
 typedef struct meeting {
