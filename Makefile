@@ -56,9 +56,9 @@ CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
               light_emission light lanes path_ready path path_learn
 CHAPTER_11 := $(CHAPTER_10) lean raster_lean
 CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_split \
-             simd_base simd_avx2 simd simd_lanes wide_cost wide_tree wide_levels wide_box wide_packet wide_edges wide_tests wide_distance wide_leaf wide_single wide_push \
+             simd_base simd_avx2 simd simd_lanes simd_squeeze wide_cost wide_tree wide_levels wide_box wide_columns wide_ready wide_packet wide_edges wide_tests wide_distance wide_leaf wide_single wide_push \
              wide_alike wide_gather wide_interval wide_packet_leaf \
-             wide_descent wide_flight wide_steps wide_stream wide_kernel wide_base wide_avx2 wide_avx512 wide \
+             wide_descent wide_flight wide_pending wide_steps wide_start wide_stream wide_kernel wide_base wide_avx2 wide_avx512 wide \
              vertex_many_levels vertex_lanes vertex_lanes_facet vertex_lanes_smooth vertex_lanes_find \
              vertex_many_kernel vertex_many_base vertex_many_avx2 vertex_many_avx512 vertex_many \
              ready_levels ready_work ready_numbers ready_num ready_pick ready_triangle ready_leave \
@@ -102,7 +102,7 @@ $(B)/%.o: %.c Makefile
 # One kernel (src/wide_kernel.h) for several sets of instructions; the program
 # asks the processor which it has.
 ifneq (,$(findstring x86_64,$(shell $(CC) -dumpmachine)))
-AVX2 := -mavx2 -mfma -mbmi
+AVX2 := -mavx2 -mfma -mbmi -mbmi2
 $(B)/src/wide_avx2.o $(B)/src/vertex_many_avx2.o $(B)/src/ready_avx2.o: FLAGS += $(AVX2)
 $(B)/src/wide_avx512.o $(B)/src/vertex_many_avx512.o $(B)/src/ready_avx512.o: FLAGS += $(AVX2) -mavx512f -mavx512vl -mavx512dq -mavx512bw
 endif

@@ -67,6 +67,10 @@ SIMD f8 f8_min(f8 a, f8 b) {
   return (f8){_mm256_min_ps(a.v, b.v)};
 }
 
+SIMD f8 f8_where_lt(f8 a, f8 b, f8 x, f8 y) {
+  return (f8){_mm256_blendv_ps(y.v, x.v, _mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ))};
+}
+
 SIMD uint32_t f8_le(f8 a, f8 b) {
   return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ));
 }

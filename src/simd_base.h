@@ -99,6 +99,11 @@ SIMD f8 f8_min(f8 a, f8 b) {
   return (f8){f4_pick(a.a < b.a, a.a, b.a), f4_pick(a.b < b.b, a.b, b.b)};
 }
 
+// x where a < b, else y, lane by lane.
+SIMD f8 f8_where_lt(f8 a, f8 b, f8 x, f8 y) {
+  return (f8){f4_pick(a.a < b.a, x.a, y.a), f4_pick(a.b < b.b, x.b, y.b)};
+}
+
 SIMD uint32_t f8_le(f8 a, f8 b) {
   return i4_bits(a.a <= b.a) | i4_bits(a.b <= b.b) << 4;
 }

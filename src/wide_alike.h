@@ -4,6 +4,7 @@
 #define WIDE_ALIKE_H
 
 #include "wide_packet.h"
+#include "wide_ready.h"
 
 // The octant of a direction.
 SIMD uint32_t octant_of(const ray *r) {
@@ -23,8 +24,6 @@ SIMD bool packet_likely(const ray *rays) {
 typedef struct packet_rays {
   f8 v[2][8];
 } packet_rays;
-
-enum { RAY_O = 0, RAY_D = 3, RAY_MIN = 6, RAY_MAX = 7 };
 
 // The axis along which all 16 rays run fastest, -1 where they differ, one
 // changes its octant, or one is not ordinary: not finite, along a plane of the

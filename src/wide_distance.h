@@ -52,41 +52,35 @@ SIMD uint32_t leaf_firm(const leaf_shear *c, const f8 ez[3], f8 t, f8 size,
 
 // Where the lines of the rays enter and leave the boxes of the triangles
 // themselves, one axis, and the longest side so far: slab_hold of slab.c.
-SIMD void leaf_slab(f8 *near, f8 *far, f8 *side, const leaf_tests *of,
-                    uint32_t axis) {
-  f8 a = tests_corner(of, 0, axis), b = tests_corner(of, 1, axis);
-  f8 c = tests_corner(of, 2, axis);
-  f8 inv = TESTS_RAYS(of, axis[axis].inv, inv[axis]);
+SIMD void leaf_slab(f8 *near, f8 *far, f8 *side, const leaf_tests *of, int k) {
+  f8 a = of->at.of[k], b = of->at.of[3 + k], c = of->at.of[6 + k];
+  f8 inv = of->inv[k], zero = f8_all(0);
   f8 lo = f8_min(f8_min(a, b), c), hi = f8_max(f8_max(a, b), c);
-  bool back = (of->p ? of->p->side[axis] : of->w->side[axis]) != 0;
-  f8 in = back ? hi : lo, out = back ? lo : hi;
-  f8 enter = TESTS_RAYS(of, axis[axis].enter, enter[axis]);
-  f8 leave = TESTS_RAYS(of, axis[axis].leave, leave[axis]);
-  in = f8_mul(f8_sub(in, enter), inv);
-  out = f8_mul(f8_sub(out, leave), inv);
+  f8 in = f8_where_lt(inv, zero, hi, lo), out = f8_where_lt(inv, zero, lo, hi);
+  in = f8_mul(f8_sub(in, of->enter[k]), inv);
+  out = f8_mul(f8_sub(out, of->leave[k]), inv);
   *near = f8_max(in, *near);
   *far = f8_min(out, *far);
   *side = f8_max(f8_sub(hi, lo), *side);
 }
 
-// What is known of the candidates of a leaf: t and the sum of the edge
-// functions; `hits` by triangle_hit and slab_hold, where single precision
-// decides; the others in `unsure`, and of these in `close` those of which only
-// t is not known, because its error reaches 0.
+// What is known of the candidates of a leaf: t and the weights of the second
+// and third corner; `hits` by triangle_hit and slab_hold, where single
+// precision decides; the others in `unsure`, and of these in `close` those of
+// which only t is not known, because its error reaches 0.
 typedef struct leaf_found {
-  float t[8], det[8];
+  float t[8], b1[8], b2[8];
   uint32_t hits, unsure, close;
 } leaf_found;
 
-// What is left of the candidates m.
+// Of the candidates m; c is from leaf_edges.
 SIMD void leaf_distances(leaf_found *out, leaf_shear *c, const leaf_tests *of,
                          uint32_t m) {
   f8 zero = f8_all(0), infinite = f8_all(INFINITY);
-  f8 sz = TESTS_RAYS(of, sz, shear.sz);
   f8 det = f8_add(f8_add(c->e[0], c->e[1]), c->e[2]), size = f8_abs(det);
-  c->z[0] = f8_mul(sz, c->z[0]);
-  c->z[1] = f8_mul(sz, c->z[1]);
-  c->z[2] = f8_mul(sz, c->z[2]);
+  c->z[0] = f8_mul(of->sz, c->z[0]);
+  c->z[1] = f8_mul(of->sz, c->z[1]);
+  c->z[2] = f8_mul(of->sz, c->z[2]);
   const f8 ez[3] = {f8_mul(c->e[0], c->z[0]), f8_mul(c->e[1], c->z[1]),
                     f8_mul(c->e[2], c->z[2])};
   f8 t = f8_div(f8_add(f8_add(ez[0], ez[1]), ez[2]), det);
@@ -99,22 +93,21 @@ SIMD void leaf_distances(leaf_found *out, leaf_shear *c, const leaf_tests *of,
   leaf_slab(&near, &far, &side, of, 0);
   leaf_slab(&near, &far, &side, of, 1);
   leaf_slab(&near, &far, &side, of, 2);
-  f8 tmin = TESTS_RAYS(of, tmin, r.tmin), tmax = TESTS_RAYS(of, tmax, r.tmax);
-  f8 best = TESTS_RAYS(of, until, best.t);
-  uint32_t in = m & f8_lt(zero, t) & f8_le(tmin, t) & f8_le(t, tmax) &
-                f8_lt(t, infinite) & f8_le(near, far) & f8_le(near, best);
+  uint32_t in = m & f8_lt(zero, t) & f8_le(of->tmin, t) & f8_le(t, of->tmax) &
+                f8_lt(t, infinite) & f8_le(near, far) & f8_le(near, of->best);
   // Held to a point, t stays in the span of the triangle's box.
-  uint32_t held = f8_le(side, f8_all(of->p ? of->p->large : of->w->large));
+  uint32_t held = f8_le(side, f8_all(of->large));
   if ((in & sure & ~held) != 0)
-    held |= leaf_firm(c, ez, t, size, TESTS_RAYS(of, reach, reach)) &
-            f8_le(f8_all(FLT_MIN), f8_abs(sz));
+    held |= leaf_firm(c, ez, t, size, of->reach) &
+            f8_le(f8_all(FLT_MIN), f8_abs(of->sz));
   out->unsure = m & (~sure | (in & ~held));
   out->close = m & clear & f8_le(f8_abs(t), error) & f8_lt(error, infinite);
   t = f8_min(far, f8_max(near, t));
   f8_store(out->t, t);
-  f8_store(out->det, det);
-  out->hits =
-      in & sure & held & f8_le(tmin, t) & f8_le(t, tmax) & f8_le(t, best);
+  f8_store(out->b1, f8_div(c->e[1], det));
+  f8_store(out->b2, f8_div(c->e[2], det));
+  out->hits = in & sure & held & f8_le(of->tmin, t) & f8_le(t, of->tmax) &
+              f8_le(t, of->best);
 }
 
 #endif

@@ -10,7 +10,7 @@
 // stack: one below all, at most WIDE - 1 a level of the tree, and what
 // push_children writes beyond.
 enum {
-  FLIGHTS = 24,
+  FLIGHTS = 32,
   FLIGHT_DEPTH = 23,
   FLIGHT_STACK = 1 + (WIDE - 1) * FLIGHT_DEPTH + WIDE
 };
@@ -25,7 +25,7 @@ typedef struct flight {
   wide_walk w;
   uint32_t index, next, top;
   uint32_t key[FLIGHT_STACK], child[FLIGHT_STACK];
-  uint32_t spare[16];
+  uint32_t spare[23];
 } flight;
 
 _Static_assert(sizeof(flight) % 128 == 64, "an odd number of lines");

@@ -3,7 +3,6 @@
 #ifndef WIDE_PACKET_H
 #define WIDE_PACKET_H
 
-#include "simd_lanes.h"
 #include "wide_box.h"
 
 // Rays of a packet, and of half of one.
@@ -23,15 +22,13 @@ typedef struct packet_axis {
 typedef struct packet {
   packet_axis axis[3];
   float o[3][PACKET];  // the origins, axes turned by the shear
-  float sx[PACKET], sy[PACKET];
-  float sz[PACKET], tmin[PACKET], tmax[PACKET];
-  float reach[PACKET];
+  float sx[PACKET], sy[PACKET], sz[PACKET];
+  float tmin[PACKET], tmax[PACKET], reach[PACKET];
   float begin[PACKET], until[PACKET];
   hit best[PACKET];
   float all_begin, all_until;
   uint32_t side[3], turned[3];  // as wide_walk: side and axis
   uint32_t alive;               // bit i: ray i goes on
-  int kz;
   float large;
   const ray *rays;
 } packet;
@@ -64,22 +61,18 @@ SIMD float packet_most(const float v[PACKET]) {
   return f8_most(f8_max(f8_load(v), f8_load(v + HALF)));
 }
 
-// Ray i as one that goes alone.
+// Ray i as one that goes alone, as leaf_one wants it.
 SIMD wide_walk packet_walk(const packet *p, uint32_t i) {
-  wide_walk w = {.begin = p->begin[i],
-                 .large = p->large,
-                 .best = p->best[i],
-                 .reach = p->reach[i]};
+  wide_walk w = {.sx = p->sx[i], .sy = p->sy[i], .sz = p->sz[i]};
   for (int k = 0; k < 3; k++) {
     w.inv[k] = p->axis[k].inv[i];
     w.enter[k] = p->axis[k].enter[i];
     w.leave[k] = p->axis[k].leave[i];
     w.side[k] = p->side[k];
     w.axis[k] = p->turned[k];
-    w.o[k] = p->o[k][i];
   }
-  w.r = p->rays[i];
-  w.shear = (ray_shear){p->kz, p->sx[i], p->sy[i], p->sz[i]};
+  w.large = p->large;
+  w.r = &p->rays[i];
   return w;
 }
 

@@ -7,6 +7,7 @@
 #ifndef WIDE_PUSH_H
 #define WIDE_PUSH_H
 
+#include "simd_squeeze.h"
 #include "wide_box.h"
 
 // Where the ray enters by a key, rounded down: never too late.
@@ -84,17 +85,8 @@ SIMD uint32_t push_children(uint32_t *key, uint32_t *child,
 
 // The same in whatever order, for rays that stop at any hit: they need no key.
 SIMD uint32_t push_unsorted(uint32_t *child, const wide_node *n, uint32_t m) {
-#if defined(__AVX512VL__)
-  __m256i c = _mm256_loadu_si256((const __m256i *)(const void *)n->child);
-  _mm256_storeu_si256((__m256i *)(void *)child,
-                      _mm256_maskz_compress_epi32((__mmask8)m, c));
-#else
-  uint32_t count = 0;
-  for (uint32_t i = 0; i < WIDE; i++) {
-    child[count] = n->child[i];
-    count += m >> i & 1;
-  }
-#endif
+  f8 c = f8_load((const float *)(const void *)n->child);
+  f8_squeeze(child, c, f8_lanes_of(m));
   return (uint32_t)__builtin_popcount(m);
 }
 

@@ -34,7 +34,7 @@ SIMD wide_later *push_sorted(wide_later *top, const wide_node *n, uint32_t m,
 SIMD bool walk_tree(wide_walk *w, const wide_tree *t, bool any, bvh_visits *v) {
   wide_later stack[WIDE_STACK], *top = stack;
   bool found = false;
-  *top++ = (wide_later){w->r.tmin, 0};
+  *top++ = (wide_later){w->tmin, 0};
   while (top > stack) {
     wide_later it = *--top;
     if (it.near > w->best.t) continue;

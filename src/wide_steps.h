@@ -3,11 +3,18 @@
 #ifndef WIDE_STEPS_H
 #define WIDE_STEPS_H
 
-#include "wide_flight.h"
-#include "wide_packet.h"
+#include "wide_pending.h"
 
 // Rays that a stream looks at together, at most.
 enum { STREAM = 8192 };
+
+// The next rays of a stream, made ready: number index[i] of it, if bit i of
+// `can` is set; `next` is the one to begin with, of `count`.
+typedef struct ready_rows {
+  float row[ROWS][8][8];
+  uint32_t index[8];
+  uint32_t can, next, count;
+} ready_rows;
 
 // A stream: its rays and those in flight.  One of hits and blocked is NULL.
 // Of the rays those fly that are in `groups` of PACKET rays, of which the last
@@ -19,6 +26,8 @@ typedef struct stream {
   bool *blocked;
   uint32_t count, taken;
   uint32_t groups[STREAM / PACKET];
+  ready_rows ready;
+  pending pending;
   _Alignas(64) flight flights[FLIGHTS];
 } stream;
 
@@ -41,40 +50,61 @@ SIMD void stream_nodes(const wide_tree *t, const flight_list *of, bool any) {
   }
 }
 
-// What a leaf's candidates m do to a ray; c is theirs from leaf_edges.
-SIMD void flight_settle(stream *s, flight *f, leaf_shear *c, uint32_t m,
-                        bool any) {
-  uint32_t n = wide_leaf_count(f->next);
-  const uint32_t *leaf =
-      s->t->triangles + 10 * (size_t)wide_leaf_first(f->next);
-  if (!leaf_settle(&f->w, c, leaf, n, m, any)) return;
+// Candidate number i, a hit unless `unsure`; h is what single precision knows
+// of it.
+SIMD void stream_hit(stream *s, uint32_t i, hit *h, bool unsure, bool close,
+                     bool any) {
+  const pending *q = &s->pending;
+  flight *f = &s->flights[q->flight[i]];
+  if (unsure) {
+    leaf_triangle of = {&q->corner[0][i], PENDING};
+    if (!leaf_one(&f->w, &of, close, h)) return;
+  }
+  h->triangle = q->triangle[i];
   if (any) {
     s->blocked[f->index] = true;
     f->top = 1;
-  } else {
+  } else if (hit_keep(&f->w.best, h)) {
     flight_prune(f);
   }
 }
 
-// Steps at leaves: the edge functions of all, then the rest for those where a
-// triangle is left.
+// The eight candidates from number i on.
+SIMD void stream_settle(stream *s, uint32_t i, bool any) {
+  leaf_tests of;
+  leaf_shear c;
+  leaf_found f;
+  uint32_t left = s->pending.count - i, m = left < 8 ? (1u << left) - 1 : 0xff;
+  pending_tests(&of, &s->pending, i, s->flights, s->t->large);
+  leaf_edges(&c, &of.rays, &of.at);
+  leaf_distances(&f, &c, &of, m);
+  for (m = f.hits | f.unsure; m != 0; m &= m - 1) {
+    uint32_t k = (uint32_t)__builtin_ctz(m);
+    hit h = {f.t[k], f.b1[k], f.b2[k], HIT_NONE};
+    stream_hit(s, i + k, &h, f.unsure >> k & 1, f.close >> k & 1, any);
+  }
+}
+
+// Steps at leaves: the edge functions of all, then the rest for what is left.
 SIMD void stream_leaves(stream *s, const flight_list *of, bool any) {
   const wide_tree *t = s->t;
-  flight *at[FLIGHTS];
-  uint32_t mask[FLIGHTS], count = 0;
-  leaf_shear c[FLIGHTS];
+  uint32_t count = 0;
   for (uint32_t i = 0; i < of->count; i++) {
-    flight *f = of->at[i];
-    at[count] = f;
+    const flight *f = of->at[i];
+    uint32_t n = wide_leaf_count(f->next);
+    const uint32_t *leaf = t->triangles + 10 * (size_t)wide_leaf_first(f->next);
+    leaf_corners at;
+    leaf_shear c;
     leaf_rays r = walk_rays(&f->w);
-    mask[count] =
-        leaf_edges(&c[count], &r, f->w.axis,
-                   t->triangles + 10 * (size_t)wide_leaf_first(f->next),
-                   wide_leaf_count(f->next));
-    count += mask[count] != 0;
+    corners_load(&at, leaf, n, f->w.axis);
+    uint32_t m = leaf_edges(&c, &r, &at) & ((1u << n) - 1);
+    f8 who = f8_bits((uint32_t)(f - s->flights));
+    memcpy(s->pending.flight + count, &who, sizeof who);
+    count = pending_add(&s->pending, count, &at, leaf + 9 * n, m);
   }
-  for (uint32_t i = 0; i < count; i++)
-    flight_settle(s, at[i], &c[i], mask[i], any);
+  s->pending.count = count;
+  for (uint32_t i = 0; i < count; i += 8)
+    stream_settle(s, i, any);
 }
 
 // Ask for what flights_next did not: the rest of leaves.

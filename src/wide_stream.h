@@ -9,39 +9,7 @@
 
 #include "wide_descent.h"
 #include "wide_gather.h"
-#include "wide_steps.h"
-
-// Give a flight the next ray of the stream that can hit something; false when
-// there is none.
-SIMD bool flight_start(stream *s, flight *f, bool any) {
-  while (s->taken < s->count) {
-    uint32_t i = s->groups[s->taken / PACKET] * PACKET + s->taken % PACKET;
-    s->taken++;
-    bool can = walk_start(&f->w, s->t, &s->rays[i]);
-    if (any)
-      s->blocked[i] = false;
-    else
-      s->hits[i] = (hit){.t = s->rays[i].tmax, .triangle = HIT_NONE};
-    if (!can) continue;
-    f->index = i;
-    f->child[0] = FLIGHT_END;
-    f->next = 0;
-    f->top = 1;
-    return true;
-  }
-  return false;
-}
-
-// Rays that have ended make room for others, which begin at the root.
-SIMD void stream_refill(stream *s, const flight_list *ended, flight_list *nodes,
-                        bool any) {
-  for (uint32_t i = 0; i < ended->count; i++) {
-    flight *f = ended->at[i];
-    if (!any) s->hits[f->index] = f->w.best;
-    nodes->at[nodes->count] = f;
-    nodes->count += flight_start(s, f, any);
-  }
-}
+#include "wide_start.h"
 
 SIMD void stream_trace(stream *s, bool any) {
   flight_lists lists[2], *now = &lists[0], *next = &lists[1];
@@ -80,6 +48,7 @@ SIMD bool stream_packet(stream *s, packet *p, uint32_t first, bool any) {
 // All n rays, STREAM at a time: packets first, then the others.
 SIMD void stream_run(stream *s, size_t n, bool any) {
   packet p;
+  pending_clear(&s->pending);
   while (n > 0) {
     uint32_t size = n < STREAM ? (uint32_t)n : STREAM, groups = 0;
     s->count = 0;
@@ -89,7 +58,7 @@ SIMD void stream_run(stream *s, size_t n, bool any) {
       s->groups[groups++] = i / PACKET;
       s->count += whole ? PACKET : size - i;
     }
-    s->taken = 0;
+    s->taken = s->ready.next = s->ready.count = 0;
     stream_trace(s, any);
     n -= size;
     s->rays += size;
