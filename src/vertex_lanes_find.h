@@ -6,6 +6,30 @@
 #include "vertex_lanes_facet.h"
 #include "vertex_lanes_smooth.h"
 
+// surface_paint, at once where there is nothing to be interpolated.
+static inline void lane_paint(surface *at, const scene *s, const hit *h) {
+  if (s->mesh.texcoord_index != NULL || s->mesh.colors != NULL) {
+    surface_paint(at, s, h);
+    return;
+  }
+  at->uv = (vec2){0, 0};
+  at->color = vec3_all(1);
+  at->material = s->material_of != NULL
+                     ? &s->materials[s->material_of[h->triangle]]
+                     : NULL;
+}
+
+// vertex_face, at once where there are no bumps.
+static inline void lane_face(vertex *v, const scene *s, const hit *h) {
+  const material *m = v->at.material;
+  if (m != NULL && (m->map_bump.image != NULL || m->map_norm.image != NULL)) {
+    vertex_face(v, s, h);
+    return;
+  }
+  v->ng = v->at.front ? v->at.ng : vec3_neg(v->at.ng);
+  v->ns = v->at.front ? v->at.ns : vec3_neg(v->at.ns);
+}
+
 // Lane i as the vertex of its hit.
 static inline void lane_scatter(const lane_work *w, int i, const scene *s,
                                 const hit *h, const ray *r, vertex *v) {
@@ -23,9 +47,9 @@ static inline void lane_scatter(const lane_work *w, int i, const scene *s,
   at->front = w->front[i];
   at->smooth = w->smooth[i];
   at->triangle = h->triangle;
-  surface_paint(at, s, h);
+  lane_paint(at, s, h);
   v->wo = lanes_at(&w->wo, i);
-  vertex_face(v, s, h);
+  lane_face(v, s, h);
 }
 
 // All of the geometry of what was gathered.

@@ -1,0 +1,40 @@
+// ready_keys.h — where in the memory of lights each lane is.
+
+#ifndef READY_KEYS_H
+#define READY_KEYS_H
+
+#include "ready_work.h"
+
+static inline int lane_step(float x) {
+  return (int)float_min(x > 0 ? x : 0, LIGHT_GRID - 1);
+}
+
+// light_memory_key.
+static inline void ready_keys(ready_work *w, const light_memory *m) {
+  vec3 lo = m->lo;
+  float per_unit = m->per_unit;
+  for (int i = 0; i < LANES; i++) {
+    vec3 p = lanes_at(&w->v.p, i), n = lanes_at(&w->n, i);
+    vec3 at = vec3_scale(vec3_sub(p, lo), per_unit), a = vec3_abs(n);
+    int key = (lane_step(at.z) * LIGHT_GRID + lane_step(at.y)) * LIGHT_GRID;
+    key += lane_step(at.x);
+    int from_y = a.y >= a.z ? 1 : 2, from_x = a.x >= a.z ? 0 : 2;
+    float c_y = a.y >= a.z ? n.y : n.z, c_x = a.x >= a.z ? n.x : n.z;
+    int axis = a.x >= a.y ? from_x : from_y;
+    float c = a.x >= a.y ? c_x : c_y;
+    w->cell[i] = (uint32_t)(key * LIGHT_SIDES + 2 * axis + (c < 0));
+  }
+}
+
+// From keys to cells, which are asked to come nearer.
+static inline void ready_fetch(ready_work *w, const light_memory *m) {
+  for (int i = 0; i < LANES; i++)
+    w->cell[i] = m->cell_of[w->cell[i]];
+  for (int i = 0; i < LANES; i++) {
+    const light_cell *c = &m->cells[w->cell[i]];
+    __builtin_prefetch(c);
+    __builtin_prefetch(c->last + LIGHT_PARTS_MOST / 2);
+  }
+}
+
+#endif
