@@ -1,12 +1,12 @@
 // cmd_render.c — facet render: from a scene and a command line to a picture.
 
+#include "aim_learn.h"
 #include "cmd_render_plan.h"
 #include "cmd_signals.h"
 
 #include "adaptive.h"
 #include "clock.h"
 #include "doubling.h"
-#include "path_learn.h"
 #include "plan_use.h"
 #include "ready.h"
 
@@ -167,6 +167,8 @@ static void learn_lights(render_job *j) {
   double start = clock_seconds();
   path_lesson lesson = {&s->view, s->width, s->height};
   path_learn(&j->lights, &j->paths, &lesson, s->mem, s->threads);
+  if (plan_needs(&j->plan, PLAN_AIM))
+    j->paths.aim = aim_learn(&j->paths, &lesson, s->mem, s->threads);
   j->learn_seconds = clock_seconds() - start;
 }
 

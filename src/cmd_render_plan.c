@@ -28,6 +28,7 @@ void render_plan_note_paths(render_job *j) {
   const render_result *r = &j->result;
   const cmd_tree *t = &j->tree;
   const light_env *e = &j->lights.env;
+  bool mis = j->o->value[OPT_INTEGRATOR].words == 2;
   plan_note(p, PLAN_TREE, 1, t->seconds, (double)cmd_tree_bytes(t));
   if (t->from_cache)
     p->line[PLAN_TREE].why = "rays ask it; kept by another run";
@@ -42,6 +43,10 @@ void render_plan_note_paths(render_job *j) {
   plan_note(p, PLAN_ASK, r->paths.asked, -1, 0);
   plan_note(p, PLAN_SHADOW_RAY, r->paths.shadows, -1, 0);
   p->line[PLAN_SHADOW_RAY].all = r->paths.asked;
+  plan_note(p, PLAN_AIM, r->paths.aimed, -1, 0);
+  if (plan_needs(p, PLAN_AIM) && j->paths.aim == NULL)
+    p->line[PLAN_AIM].why = mis ? "--integrator mis learns nothing"
+                                : "it would take too little noise away";
   plan_note(p, PLAN_ALPHA, r->paths.through, -1, 0);
   p->line[PLAN_ALPHA].all = r->paths.shadows;
   plan_note(p, PLAN_SEGMENTS,

@@ -5,7 +5,6 @@
 
 #include "path.h"
 
-#include "light_emission.h"
 #include "tracer.h"
 #include "vertex.h"
 
@@ -27,6 +26,7 @@ typedef struct path {
   vec3 from, from_n;  // where the last direction was sampled, and the normal
   float pdf;          // of that direction; 0 where only a delta could give it
   int segment, inside;
+  path_trail trail;
 } path;
 
 // Rays that have met a surface, and where: few enough for the fastest cache.
@@ -48,10 +48,8 @@ typedef struct shadow {
   vec3 lit;
   light_ray to;
   surface from;
-  size_t record;  // in the log; NO_RECORD: none
+  size_t record;  // in the log; PATH_NO_RECORD: none
 } shadow;
-
-#define NO_RECORD SIZE_MAX
 
 // The room of one worker: paths, those still on their way with their rays, and
 // the light samples of this wave.
@@ -67,6 +65,7 @@ typedef struct wave {
   shadow *shadows;
   bool *blocked;
   met *met;
+  path_aims *aims;  // NULL: no ray is aimed
   size_t count, next, shadow_count;
   uint32_t steps;  // the rays of each path so far
 } wave;
@@ -88,7 +87,7 @@ static void meet_sky(const wave *w, path *p, const ray *r) {
   vec3 d = vec3_unit(r->d);
   vec3 sky = env_radiance(&w->by->world->scene->env, d);
   if (!(vec3_peak(sky) > 0)) return;
-  float weight = 1;
+  float weight = path_trail_weight(&p->trail, w->steps);
   if (p->pdf > 0)
     weight = power_weight(p->pdf,
                           light_pdf_env(w->by->lights, p->from, p->from_n, d));
@@ -99,27 +98,12 @@ static void meet_sky(const wave *w, path *p, const ray *r) {
 static void meet_glow(const wave *w, path *p, const vertex *v) {
   vec3 glow = matter_emission(&v->at);
   if (!(vec3_peak(glow) > 0)) return;
-  float weight = 1;
+  float weight = path_trail_weight(&p->trail, w->steps);
   if (p->pdf > 0)
     weight = power_weight(p->pdf,
                           light_pdf_triangle(w->by->lights, p->from, p->from_n,
                                              v->at.triangle, v->at.p));
   add(p, weight, glow);
-}
-
-// Write down who is asked, and what that would bring; the number of that line.
-static size_t note(const wave *w, const vertex *v, const light_sample *l,
-                   float cosine) {
-  path_log *log = w->by->log;
-  if (log == NULL || l->part == LIGHT_NO_PART) return NO_RECORD;
-  float x = 0;
-  if (cosine > 0) x = light_mean(l->radiance) * cosine * l->chosen / l->pdf;
-  x = float_min(x, 1e18f);  // whose square is a float
-  log->items =
-      array_grow(log->items, &log->room, log->count + 1, sizeof *log->items);
-  log->items[log->count++] = (light_record){
-      light_memory_key(w->by->lights->memory, v->at.p, v->n), l->part, x * x};
-  return log->count - 1;
 }
 
 // Sample a light for v; false where none is met.
@@ -145,7 +129,8 @@ static void ask_light(wave *w, const stop *s, const bsdf *b, uint32_t turns) {
   meeting m = {0};
   bool found =
       s->lit ? path_ready_light(s, &l, &m) : look_alone(w, s, b, &l, &m);
-  size_t record = note(w, v, &l, found ? m.cosine : 0);
+  size_t record = path_log_note(w->by->log, w->by->lights->memory, v, &l,
+                                found ? m.cosine : 0);
   if (!found) return;
   float scale = m.cosine / (l.pdf * (float)turns);
   if (!l.delta) scale *= power_weight(l.pdf, m.pdf);
@@ -181,14 +166,16 @@ static void ask_lights(wave *w, const stop *s, const bsdf *b) {
 }
 
 // Go on in a direction sampled from b; false where nothing is scattered.
-static bool scatter(path *p, const stop *s, const bsdf *b, ray *r) {
+static bool scatter(wave *w, const stop *s, const bsdf *b, ray *r) {
   const vertex *v = s->at;
+  path *p = &w->paths[s->which];
   bsdf_sample d = {.delta = false};
   if (s->ready != NULL)
     *r = path_ready_leave(s, &d);
   else if (!bsdf_sample_wi(b, vertex_local(v, v->wo), s->u[USE_LOBE],
                            s->u[USE_DIRECTION], s->u[USE_DIRECTION + 1], &d))
     return false;
+  if (d.delta && p->pdf > 0) path_trail_turn(&p->trail, p->pdf, r, w->steps);
   p->throughput = vec3_mul(p->throughput, d.weight);
   p->from = v->at.p;
   p->from_n = v->n;
@@ -198,6 +185,13 @@ static bool scatter(path *p, const stop *s, const bsdf *b, ray *r) {
   else
     *r = vertex_leave(v, b, &d, r->d, &p->inside);
   return vec3_peak(p->throughput) > 0;
+}
+
+// Perhaps aim at mirrors and glass.
+static void ask_aims(wave *w, const stop *s, const bsdf *b) {
+  path *p = &w->paths[s->which];
+  path_stand here = {s->which, s->at, b, p->throughput, p->numbers, p->segment};
+  p->trail = path_aims_ask(w->aims, &here, w->steps);
 }
 
 // Russian roulette.
@@ -226,10 +220,12 @@ static bool bounce(wave *w, stop *s, ray *r) {
   path *p = &w->paths[s->which];
   matter m;
   meet_matter(w, p, s, &m);
-  if (w->lights && !bsdf_is_delta(&m.bsdf)) ask_lights(w, s, &m.bsdf);
+  bool delta = bsdf_is_delta(&m.bsdf);
+  if (w->lights && !delta) ask_lights(w, s, &m.bsdf);
+  if (w->aims != NULL && !delta) ask_aims(w, s, &m.bsdf);
   const path_world *world = w->by->world;
   if (world->lamps_only && p->segment + 1 == world->max_depth) return false;
-  if (!scatter(p, s, &m.bsdf, r) || !survives(p, s->u[USE_LIFE])) return false;
+  if (!scatter(w, s, &m.bsdf, r) || !survives(p, s->u[USE_LIFE])) return false;
   p->segment++;
   return true;
 }
@@ -330,7 +326,8 @@ static void light_all(wave *w) {
       share = 0;
       if (w->sheets)
         share = light_ray_through(&s->to, world, &s->from, w->stats);
-      if (s->record != NO_RECORD) w->by->log->items[s->record].square *= share;
+      if (s->record != PATH_NO_RECORD)
+        w->by->log->items[s->record].square *= share;
       if (!(share > 0)) continue;
     }
     path *p = &w->paths[s->path];
@@ -368,12 +365,15 @@ static void path_radiance(const void *self, const path_start *starts, size_t n,
     w->alive[i] = (uint32_t)i;
     w->rays[i] = starts[i].ray;
   }
+  if (w->aims != NULL) path_aims_begin(w->aims, by->aim, by->world, by->gain);
   while (w->count > 0) {
     step_all(w);
     light_all(w);
+    if (w->aims != NULL) path_aims_run(w->aims, stats);
   }
   for (size_t i = 0; i < n; i++)
     out[i] = w->paths[i].sum;
+  if (w->aims != NULL) path_aims_add(w->aims, out, n);
 }
 
 static void *path_room(const void *self, arena *mem) {
@@ -388,6 +388,7 @@ static void *path_room(const void *self, arena *mem) {
   w->shadows = ARENA_NEW(mem, shadow, m);
   w->blocked = ARENA_NEW(mem, bool, m);
   w->met = ARENA_NEW(mem, met, 1);
+  if (by->aim != NULL) w->aims = path_aims_room(mem);
   return w;
 }
 

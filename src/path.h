@@ -4,15 +4,10 @@
 #ifndef PATH_H
 #define PATH_H
 
-#include "light.h"
+#include "path_aim.h"
+#include "path_log.h"
 #include "path_ready.h"
 #include "path_world.h"
-
-// What a walk writes down of its questions to lights that have a memory.
-typedef struct path_log {
-  light_record *items;
-  size_t room, count;  // for array_free
-} path_log;
 
 // Unbiased for any max_depth, as path_naive is, of the same transport.  All
 // that it points to lives while it is used.
@@ -24,6 +19,8 @@ typedef struct path_tracer {
   uint64_t seed;
   path_log *log;       // NULL: none
   uint32_t questions;  // to lights at every vertex; 0: one
+  const aim_map *aim;  // NULL: no ray is aimed
+  double *gain;        // of these, by aim_gain, is added; NULL: not
 } path_tracer;
 
 integrator path_integrator(const path_tracer *p);

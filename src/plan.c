@@ -3,6 +3,7 @@
 #include "plan.h"
 
 #include "raster_env.h"
+#include "vertex.h"
 
 #include <string.h>
 
@@ -55,13 +56,6 @@ static bool has_kind(const plan *p, material_kind kind) {
   const scene *s = p->of.scene;
   for (size_t i = 0; i < s->material_count; i++)
     if (s->materials[i].kind == kind && in_view(p, i)) return true;
-  return false;
-}
-
-static bool has_sheets(const plan *p) {
-  const scene *s = p->of.scene;
-  for (size_t i = 0; i < s->material_count; i++)
-    if (s->materials[i].passes) return true;
   return false;
 }
 
@@ -235,7 +229,7 @@ static void plan_visibility(plan *p) {
       maps |= (material_reads(m, m->kind) >> k & 1) != 0 &&
               (map->found != NULL || map->image != NULL);
     }
-  bool sheets = has_sheets(p);
+  bool sheets = scene_has_sheets(p->of.scene);
   bool once = shown && !p->of.each && !maps && !sheets;
   tell_as_is(p, PLAN_VISIBILITY, once, 1,
              once         ? "each pixel is shaded once for what it sees"
@@ -321,9 +315,14 @@ static void plan_lights_of_paths(plan *p) {
                 : "there is no light to ask for");
   tell(p, PLAN_SHADOW_RAY, asks ? PLAN_ANY : 0, PLAN_ANY,
        asks ? "for light samples that bring something" : "nothing was asked");
-  tell(p, PLAN_ALPHA, has_sheets(p) && any ? PLAN_ANY : 0, PLAN_ANY,
-       has_sheets(p) ? "some surfaces let light through"
-                     : "every surface is opaque");
+  bool glass = has_kind(p, MATERIAL_MIRROR) || has_kind(p, MATERIAL_GLASS);
+  bool ends = asks && (glow || varies), sheets = scene_has_sheets(r->scene);
+  tell(p, PLAN_AIM, glass && ends ? PLAN_ANY : 0, PLAN_ANY,
+       !glass ? "no surface is a mirror or glass"
+       : ends ? "where that takes noise away"
+              : "no lamp is looked for in mirrors and glass");
+  tell(p, PLAN_ALPHA, sheets && any ? PLAN_ANY : 0, PLAN_ANY,
+       sheets ? "some surfaces let light through" : "every surface is opaque");
 }
 
 static void plan_walks(plan *p) {

@@ -100,6 +100,16 @@ with open("room.obj", "w") as out:
     for q in ((1, 3, 7, 5), (2, 6, 8, 4), (1, 5, 6, 2), (3, 4, 8, 7), (1, 2, 4, 3), (5, 7, 8, 6)):
         out.write("f %d %d %d %d\n" % q)
 scene("room", "room", "env sky.pfm\n")
+# A lamp that shines at a mirror.
+with open("shown.obj", "w") as out:
+    out.write("mtllib all.mtl\n")
+    for i, (m, quad) in enumerate((
+            ("matt", ((-3, 0, 3), (3, 0, 3), (3, 0, -3), (-3, 0, -3))),
+            ("looking", ((-1, 0, 1), (-1, 0, -1), (-1, 2, -1), (-1, 2, 1))),
+            ("lamp", ((0, 0.8, -0.1), (0, 0.8, 0.1), (0, 1, 0.1), (0, 1, -0.1))))):
+        out.write("".join("v %g %g %g\n" % p for p in quad))
+        out.write("usemtl %s\nf -4 -3 -2 -1\n" % m)
+scene("shown", "shown", "env none\n")
 END
 
 # run NAME ARGUMENTS...: NAME.pfm and NAME.json
@@ -180,6 +190,8 @@ rule path lamps 0 -- lit.scene --spp 1 -- glass.scene --spp 2
 rule path "sky directions" 0 -- map.scene --spp 1 -- grey.scene --spp 4
 rule path "light samples" 0 -- lit.scene --spp 1 -- grey.scene --spp 4
 rule path "shadow rays" fewer -- lit.scene --spp 1 -- shiny.scene --spp 4
+rule path "aimed rays" 0 -- shown.scene --spp 1 -- glow.scene --spp 4
+rule path "aimed rays" 0 -- shown.scene --spp 1 -- glass.scene --env 1,1,1 --spp 4
 rule path "alpha tests" 0 -- lace.scene --spp 4 -- lit.scene --spp 4
 rule path segments 2 -- glow.scene --max-depth 3 --spp 1 -- lit.scene --max-depth 3 --spp 4
 rule path segments 2 -- glow.scene --max-depth 3 --spp 1 -- lace.scene --max-depth 3 --spp 4

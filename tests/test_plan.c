@@ -265,9 +265,9 @@ static void no_skip_wants_everything(void **state) {
       if (i != PLAN_VISIBILITY && i != PLAN_RESOLVE && i != PLAN_NORMALS)
         assert_int_equal(p.line[i].need, p.line[i].all);
     p = plan_of(w, (plan_request){.path = path, .shading = RENDER_DEPTH});
-    plan_stage lit[] = {PLAN_LAMPS, PLAN_SHADOW_MAPS, PLAN_SKY,    PLAN_IBL,
-                        PLAN_TABLE, PLAN_PATHS,       PLAN_ASK,    PLAN_ALPHA,
-                        PLAN_LEAN,  PLAN_ENV_TABLE,   PLAN_ENV_MAP};
+    plan_stage lit[] = {PLAN_LAMPS, PLAN_SHADOW_MAPS, PLAN_SKY,     PLAN_IBL,
+                        PLAN_TABLE, PLAN_PATHS,       PLAN_ASK,     PLAN_ALPHA,
+                        PLAN_LEAN,  PLAN_ENV_TABLE,   PLAN_ENV_MAP, PLAN_AIM};
     for (size_t i = 0; i < sizeof lit / sizeof *lit; i++)
       assert_false(plan_needs(&p, lit[i]));
   }

@@ -1,12 +1,12 @@
 // figures.c — the pictures of chapter 10, and the numbers that its text quotes.
 
 #include "../tripod.h"
+#include "aim_learn.h"
 #include "bvh.h"
 #include "clock.h"
 #include "light_emission.h"
 #include "metric.h"
 #include "num.h"
-#include "path_learn.h"
 #include "render.h"
 #include "vertex.h"
 
@@ -603,6 +603,54 @@ static void draw_memory(output *o) {
   publish(o->folder, "memory", all);
 }
 
+// The balls of the Cornell box and what is below them.
+static image render_balls(output *o, const stage *s, const path_tracer *by,
+                          int spp) {
+  camera_view v;
+  error err;
+  enum { SIDE = 400 };
+  if (!camera_view_of(&v, scene_camera(&s->scene, NULL), SIDE, SIDE, &err))
+    give_up(&err, 4);
+  integrator looks = path_integrator(by);
+  render_settings set = {.width = SIDE,
+                         .height = SIDE,
+                         .spp = spp,
+                         .seed = by->seed,
+                         .by = &looks};
+  set.x0 = 90, set.y0 = 210, set.x1 = 328, set.y1 = 384;
+  render_result r;
+  render_run(&r, &s->world, &v, &set, &o->mem, o->threads);
+  return r.color;
+}
+
+// The same time without aimed rays and with them, the photons included.
+static void draw_glass(output *o) {
+  stage *s = stage_load(o, "scenes/cornell-balls.scene", NULL);
+  path_tracer by = {.world = &s->world, .lights = &s->lights, .seed = 2};
+  camera_view v;
+  error err;
+  if (!camera_view_of(&v, scene_camera(&s->scene, NULL), 400, 400, &err))
+    give_up(&err, 4);
+  double start = clock_seconds();
+  image parts[2] = {render_balls(o, s, &by, 11)};
+  double plain = clock_seconds() - start;
+  path_lesson lesson = {&v, 400, 400};
+  start = clock_seconds();
+  by.aim = aim_learn(&by, &lesson, &o->mem, o->threads);
+  double learned = clock_seconds() - start;
+  parts[1] = render_balls(o, s, &by, 8);
+  printf("scattered %.2f s, aimed %.2f s of which learning %.2f\n", plain,
+         clock_seconds() - start, learned);
+  by.seed = 0;
+  image truth = render_balls(o, s, &by, 64);
+  for (int i = 0; i < 2; i++) {
+    print_error(i == 0 ? "scattered" : "aimed", &parts[i], &truth, o);
+    parts[i] = expose(parts[i], 3);
+  }
+  image all = row_of(&o->mem, parts, 2);
+  publish(o->folder, "glass", all);
+}
+
 // The least seconds of several runs for each of n calls, in nanoseconds.
 typedef float (*timed)(const void *context, uint32_t i);
 
@@ -674,6 +722,7 @@ int main(int argc, char **argv) {
   draw_many(&o);
   draw_shadow(&o);
   draw_memory(&o);
+  draw_glass(&o);
   print_times(&o);
   pool_free(o.threads);
   arena_free(&o.mem);

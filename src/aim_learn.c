@@ -1,0 +1,134 @@
+// aim_learn.c
+
+#include "aim_learn.h"
+
+#include "aim_build.h"
+#include "light_emission.h"
+
+// Other numbers than those of the picture and of path_learn.
+#define OTHER_SEED UINT64_C(0x61696d)
+
+// Photons tried for each pixel, but no more than so many; the share of them
+// that is tried first, and how many of those must come down.
+enum { PHOTONS_PER_PIXEL = 2, MOST_PHOTONS = 1 << 18, FIRST_SHARE = 8 };
+enum { LEAST_PHOTONS = 64 };
+
+// Batches of paths that look how bright the picture is, and what it would gain.
+enum { LOOKS = 2 };
+
+// The share of the square of the brightness of a picture by which the mean
+// square of its samples must shrink.
+#define WORTH 0.02
+
+// How many rays a picture may cost: the variance that one more must take away
+// is this share of the square of the brightness.
+#define PRICE 5.0f
+
+typedef struct look_job {
+  const path_tracer *by;
+  const path_lesson *lesson;
+  void *rooms[LOOKS];
+  double roots[LOOKS], gains[LOOKS];
+} look_job;
+
+// Paths evenly over the film.
+static void look(void *context, size_t item, int worker) {
+  (void)worker;
+  look_job *job = context;
+  const path_lesson *l = job->lesson;
+  path_tracer one = *job->by;
+  one.seed ^= OTHER_SEED;
+  one.gain = &job->gains[item];
+  integrator by = path_integrator(&one);
+  path_start starts[INTEGRATOR_BATCH];
+  vec3 colors[INTEGRATOR_BATCH];
+  path_stats stats = {0};
+  uint64_t pixels = (uint64_t)l->width * (uint64_t)l->height;
+  for (size_t i = 0; i < INTEGRATOR_BATCH; i++) {
+    uint64_t n = item * INTEGRATOR_BATCH + i;
+    uint64_t pixel = n * pixels / (LOOKS * INTEGRATOR_BATCH);
+    vec2 at = by.place(by.self, n, 0);
+    float x = (float)(pixel % (uint64_t)l->width) + at.x;
+    float y = (float)(pixel / (uint64_t)l->width) + at.y;
+    starts[i] = (path_start){camera_ray(l->view, x, y), n, 0};
+  }
+  by.radiance(by.self, starts, INTEGRATOR_BATCH, colors, &stats,
+              job->rooms[item]);
+  for (size_t i = 0; i < INTEGRATOR_BATCH; i++)
+    job->roots[item] += sqrt((double)light_mean(colors[i]));
+}
+
+// The brightness, by the mean of roots, which a few bright samples do not
+// change; and what aimed rays take away from the mean square of a sample.
+typedef struct sight {
+  double brightness, gain;
+} sight;
+
+static sight look_around(const path_tracer *by, const path_lesson *lesson,
+                         pool *threads) {
+  arena scratch = {0};
+  look_job job = {.by = by, .lesson = lesson};
+  integrator all = path_integrator(by);
+  for (int i = 0; i < LOOKS; i++)
+    job.rooms[i] = all.room(all.self, &scratch);
+  pool_run(threads, LOOKS, look, &job);
+  sight s = {0, 0};
+  for (int i = 0; i < LOOKS; i++) {
+    s.brightness += job.roots[i] / (LOOKS * INTEGRATOR_BATCH);
+    s.gain += job.gains[i] / (LOOKS * INTEGRATOR_BATCH);
+  }
+  s.brightness *= s.brightness;
+  arena_free(&scratch);
+  return s;
+}
+
+typedef struct study {
+  const path_tracer *by;
+  const aim_mirrors *mirrors;
+  float keen;
+  pool *threads;
+} study;
+
+// A map by so many photons; false where too few come down.
+static bool map_by(const study *s, size_t photons, aim_map *out, arena *mem) {
+  arena scratch = {0};
+  const scene *of = s->by->world->scene;
+  aim_photons list = aim_photons_of(s->mirrors, s->by->seed ^ OTHER_SEED,
+                                    photons, &scratch, s->threads);
+  bool enough = list.count >= LEAST_PHOTONS;
+  if (enough) aim_build(out, &list, of->lo, of->hi, mem);
+  out->keen = s->keen;
+  arena_free(&scratch);
+  return enough;
+}
+
+static bool pays(const study *s, const aim_map *map, const path_lesson *lesson,
+                 double brightness) {
+  path_tracer by = *s->by;
+  by.aim = map;
+  double gain = look_around(&by, lesson, s->threads).gain;
+  return gain >= WORTH * brightness * brightness;
+}
+
+const aim_map *aim_learn(const path_tracer *by, const path_lesson *lesson,
+                         arena *mem, pool *threads) {
+  const path_world *w = by->world;
+  bool chains = w->max_depth == 0 || w->max_depth > 2;
+  if (!chains || w->lamps_only) return NULL;
+  arena scratch = {0};
+  study s = {.by = by, .threads = threads};
+  s.mirrors = aim_mirrors_of(w, by->lights, &scratch);
+  aim_map first, *map = ARENA_NEW(mem, aim_map, 1);
+  size_t n = (size_t)lesson->width * (size_t)lesson->height;
+  n = n < MOST_PHOTONS / PHOTONS_PER_PIXEL ? n * PHOTONS_PER_PIXEL
+                                           : MOST_PHOTONS;
+  bool good = s.mirrors != NULL;
+  double brightness = 0;
+  if (good) brightness = look_around(by, lesson, threads).brightness;
+  good = good && brightness > 0;
+  if (good) s.keen = 1 / (sqrtf(PRICE) * (float)brightness);
+  good = good && map_by(&s, n / FIRST_SHARE, &first, &scratch) &&
+         pays(&s, &first, lesson, brightness) && map_by(&s, n, map, mem);
+  arena_free(&scratch);
+  return good ? map : NULL;
+}

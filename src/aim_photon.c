@@ -1,0 +1,183 @@
+// aim_photon.c
+
+#include "aim_photon.h"
+
+#include "light_emission.h"
+#include "pick.h"
+#include "rng.h"
+#include "tracer.h"
+#include "vertex.h"
+
+#include <string.h>
+
+// The most mirrors and glass on a way, and the tries of a batch.
+enum { LONGEST = 6, BATCH = 1024 };
+
+struct aim_mirrors {
+  const path_world *world;
+  const light_set *lights;
+  uint32_t *triangles;
+  pick by_area;
+  double area;
+};
+
+// A photon on its way.
+typedef struct flight {
+  aim_photon at;
+  ray ray;
+  int inside, events;
+  rng numbers;
+} flight;
+
+// The room of one worker.
+typedef struct sky {
+  flight flights[BATCH];
+  ray rays[BATCH];
+  hit hits[BATCH];
+} sky;
+
+typedef struct flight_job {
+  const aim_mirrors *by;
+  uint64_t seed;
+  size_t tries;
+  sky *rooms;
+  aim_photon *out;  // BATCH for each item
+  size_t *counts;
+} flight_job;
+
+static bool is_mirror(const scene *s, uint32_t triangle) {
+  material_kind kind = s->materials[s->material_of[triangle]].kind;
+  return kind == MATERIAL_MIRROR || kind == MATERIAL_GLASS;
+}
+
+static vec3 corner(const scene *s, uint32_t triangle, uint32_t k) {
+  const mesh *m = &s->mesh;
+  return m->positions[m->position_index[3 * (size_t)triangle + k]];
+}
+
+// Whether a chain of mirrors can end where light is.
+static bool shines(const light_set *l) {
+  return l->name_count > 0 || l->env.irradiance > 0;
+}
+
+const aim_mirrors *aim_mirrors_of(const path_world *world, const light_set *l,
+                                  arena *mem) {
+  const scene *s = world->scene;
+  uint32_t all = (uint32_t)s->mesh.triangle_count, n = 0;
+  if (!shines(l) || s->material_count == 0) return NULL;
+  for (uint32_t i = 0; i < all; i++)
+    n += is_mirror(s, i);
+  if (n == 0 || n > PICK_UNITS) return NULL;
+  arena scratch = {0};
+  float *areas = ARENA_NEW(&scratch, float, n);
+  aim_mirrors *m = ARENA_NEW(mem, aim_mirrors, 1);
+  *m =
+      (aim_mirrors){world, l, ARENA_NEW(mem, uint32_t, n), pick_new(mem, n), 0};
+  n = 0;
+  for (uint32_t i = 0; i < all; i++) {
+    if (!is_mirror(s, i)) continue;
+    areas[n] = (float)mesh_triangle_area(&s->mesh, i);
+    m->triangles[n++] = i;
+  }
+  pick_weigh(&m->by_area, areas, &m->area);
+  arena_free(&scratch);
+  return m->area > 0 && isfinite(m->area) ? m : NULL;
+}
+
+// Whether it is a mirror or glass there, and on from it if so.
+typedef enum fate { FATE_ENDS, FATE_DOWN, FATE_ON } fate;
+
+static fate turn(const path_world *w, flight *f, vertex *v) {
+  matter m = vertex_matter(v, w->dfg, rng_next(&f->numbers));
+  float u = rng_next(&f->numbers);
+  bsdf_sample d;
+  if (!bsdf_is_delta(&m.bsdf)) return FATE_DOWN;
+  if (!bsdf_sample_wi(&m.bsdf, vertex_local(v, v->wo), u, 0, 0, &d))
+    return FATE_ENDS;
+  float share = light_mean(vec3_mul(m.weight, d.weight));
+  f->at.y = v->at.p;
+  f->at.power *= share;
+  f->at.radiance *= share;
+  f->ray = vertex_leave(v, &m.bsdf, &d, f->ray.d, &f->inside);
+  return ++f->events <= LONGEST && f->at.power > 0 ? FATE_ON : FATE_ENDS;
+}
+
+// A point of a mirror, chosen evenly, and light that arrives there.
+static bool start(const flight_job *job, size_t i, flight *f) {
+  const aim_mirrors *by = job->by;
+  const scene *s = by->world->scene;
+  *f = (flight){.numbers = rng_of(job->seed, i, 0)};
+  rng *n = &f->numbers;
+  float u = ((float)i + rng_next(n)) / (float)job->tries, share;
+  u = float_min(u, 0x1.fffffep-1f);
+  uint32_t t = by->triangles[pick_at(&by->by_area, &u, &share)];
+  hit at = {.b1 = rng_next(n), .b2 = rng_next(n), .triangle = t};
+  if (at.b1 + at.b2 > 1) at.b1 = 1 - at.b1, at.b2 = 1 - at.b2;
+  vec3 a = corner(s, t, 0), ab = vec3_sub(corner(s, t, 1), a);
+  vec3 ac = vec3_sub(corner(s, t, 2), a);
+  vec3 y = vec3_mad(vec3_mad(a, at.b1, ab), at.b2, ac);
+  vec3 choice = {rng_next(n), rng_next(n), rng_next(n)};
+  light_sample l;
+  bool found = light_sample_at(by->lights, y, vec3_all(0), choice, &l);
+  if (!found || l.delta) return false;
+  f->ray.d = vec3_neg(l.wi);
+  vertex v = vertex_at(s, &at, f->ray.d);
+  light_ray to = {.is_point = l.has_end, .to = l.to, .wi = l.wi};
+  ray shadow = light_ray_shadow(&to, &v.at, false);
+  if (by->world->tracer.any(by->world->tracer.tree, &shadow)) return false;
+  f->at.radiance = light_mean(l.radiance);
+  f->at.power = f->at.radiance * fabsf(vec3_dot(v.ng, l.wi)) / l.pdf;
+  f->at.power *= (float)(by->area / (double)job->tries);
+  return turn(by->world, f, &v) == FATE_ON;
+}
+
+static void land(flight_job *job, size_t item, flight *f, const vertex *v) {
+  if (!(vec3_peak(matter_albedo(&v->at)) > 0)) return;
+  f->at.x = v->at.p;
+  f->at.n = v->n;
+  f->at.cosine = float_max(vec3_dot(v->n, v->wo), 0);
+  if (!(f->at.power < INFINITY)) return;
+  job->out[item * BATCH + job->counts[item]++] = f->at;
+}
+
+static void fly(void *context, size_t item, int worker) {
+  flight_job *job = context;
+  const path_world *w = job->by->world;
+  sky *room = &job->rooms[worker];
+  size_t n = 0, from = item * BATCH;
+  for (size_t i = from; i < from + BATCH && i < job->tries; i++)
+    n += start(job, i, &room->flights[n]);
+  while (n > 0) {
+    for (size_t i = 0; i < n; i++)
+      room->rays[i] = room->flights[i].ray;
+    tracer_closest_many(&w->tracer, room->rays, room->hits, n);
+    size_t next = 0;
+    for (size_t i = 0; i < n; i++) {
+      flight f = room->flights[i];
+      if (room->hits[i].triangle == HIT_NONE) continue;
+      vertex v = vertex_at(w->scene, &room->hits[i], f.ray.d);
+      fate what = turn(w, &f, &v);
+      if (what == FATE_DOWN) land(job, item, &f, &v);
+      if (what == FATE_ON) room->flights[next++] = f;
+    }
+    n = next;
+  }
+}
+
+aim_photons aim_photons_of(const aim_mirrors *m, uint64_t seed, size_t tries,
+                           arena *mem, pool *threads) {
+  arena scratch = {0};
+  size_t items = (tries + BATCH - 1) / BATCH;
+  int workers = threads == NULL ? 1 : pool_threads(threads);
+  flight_job job = {.by = m, .seed = seed, .tries = tries};
+  job.rooms = ARENA_NEW(&scratch, sky, (size_t)workers);
+  job.counts = ARENA_NEW(&scratch, size_t, items);
+  job.out = ARENA_NEW(mem, aim_photon, items * BATCH);
+  pool_run(threads, items, fly, &job);
+  aim_photons all = {job.out, 0};
+  for (size_t i = 0; i < items; i++)
+    for (size_t j = 0; j < job.counts[i]; j++)
+      all.of[all.count++] = job.out[i * BATCH + j];
+  arena_free(&scratch);
+  return all;
+}

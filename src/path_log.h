@@ -1,0 +1,23 @@
+// path_log.h — what a walk writes down of its questions to lights that have a
+// memory.
+
+#ifndef PATH_LOG_H
+#define PATH_LOG_H
+
+#include "light.h"
+#include "vertex.h"
+
+typedef struct path_log {
+  light_record *items;
+  size_t room, count;  // for array_free
+} path_log;
+
+#define PATH_NO_RECORD SIZE_MAX
+
+// Write down who was asked for v, and what that would bring: s, of that cosine
+// to the normal.  The number of that line; PATH_NO_RECORD where log is NULL or
+// there is nothing to remember.
+size_t path_log_note(path_log *log, const light_memory *m, const vertex *v,
+                     const light_sample *s, float cosine);
+
+#endif
