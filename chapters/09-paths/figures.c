@@ -1,7 +1,7 @@
 // figures.c — the pictures of chapter 9, and the numbers that its text quotes.
 
 #include "../../tests/solids.h"
-#include "../easel.h"
+#include "../tripod.h"
 #include "bsdf.h"
 #include "metric.h"
 #include "num.h"
@@ -25,10 +25,7 @@ typedef struct stage {
 
 static stage *stage_load(output *o, const char *path) {
   stage *s = ARENA_NEW(&o->mem, stage, 1);
-  scene_options options = {0};
-  error err;
-  if (!scene_load(&s->scene, path, &options, &o->mem, o->threads, NULL, &err))
-    give_up(&err, 4);
+  open_scene(&s->scene, path, NULL, &o->mem, o->threads);
   const mesh *m = &s->scene.mesh;
   bvh_build(&s->tree, m->positions, m->position_index,
             (uint32_t)m->triangle_count, BVH_SAH, &o->mem, o->threads);
@@ -43,11 +40,7 @@ static path_world stage_world(output *o, const stage *s) {
 }
 
 static camera_view stage_view(const stage *s, int width, int height) {
-  camera_view v;
-  error err;
-  if (!camera_view_of(&v, scene_camera(&s->scene, NULL), width, height, &err))
-    give_up(&err, 4);
-  return v;
+  return view_by(scene_camera(&s->scene, NULL), width, height);
 }
 
 // How a stage is photographed; the crop is all where x1 is 0.

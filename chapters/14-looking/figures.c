@@ -1,6 +1,6 @@
 // figures.c — the pictures of chapter 14, and the numbers that its text quotes.
 
-#include "../easel.h"
+#include "../tripod.h"
 #include "clock.h"
 #include "post.h"
 #include "raster.h"
@@ -20,13 +20,6 @@ typedef struct output {
   scene scene;
   gl *g;
 } output;
-
-static void load(output *o, const char *path) {
-  error err;
-  scene_options so = {0};
-  if (!scene_load(&o->scene, path, &so, &o->mem, o->threads, NULL, &err))
-    give_up(&err, 4);
-}
 
 static void fill(image *im, int x0, int y0, int w, int h, vec3 color) {
   for (int y = y0; y < y0 + h; y++)
@@ -100,10 +93,8 @@ static raster *open_raster(output *o, int width, int height) {
 static image drawn(output *o, raster *r, const camera *c, int width,
                    int height) {
   error err;
-  camera_view view;
-  if (!camera_view_of(&view, c, width, height, &err) ||
-      !raster_draw(r, &view, &err))
-    give_up(&err, 4);
+  camera_view view = view_by(c, width, height);
+  if (!raster_draw(r, &view, &err)) give_up(&err, 4);
   return raster_read(r, &o->mem);
 }
 
@@ -302,10 +293,10 @@ int main(int argc, char **argv) {
   draw_timeline(&o);
   draw_speed(&o);
   draw_grains(&o);
-  load(&o, "scenes/materials.scene");
+  open_scene(&o.scene, "scenes/materials.scene", NULL, &o.mem, o.threads);
   draw_strip(&o);
   draw_passes(&o);
-  load(&o, "scenes/garden.scene");
+  open_scene(&o.scene, "scenes/garden.scene", NULL, &o.mem, o.threads);
   draw_garden(&o);
   time_restarts(&o);
   time_glass(&o);
