@@ -16,11 +16,12 @@ typedef struct packet_choice {
   uint32_t of[HALF];
 } packet_choice;
 
-// Their corners, axes turned; those of the leaf are in `all`.
-SIMD void choice_corners(leaf_corners *out, const leaf_corners *all,
-                         const packet_choice *which) {
-  for (int i = 0; i < 9; i++)
-    out->of[i] = f8_choose(all->of[i], which->of);
+// Corner i of each, axes turned; those of the leaf are in `all`.
+SIMD void choice_corner(leaf_corners *out, const leaf_corners *all,
+                        const packet_choice *which, int i) {
+  out->of[3 * i] = f8_choose(all->of[3 * i], which->of);
+  out->of[3 * i + 1] = f8_choose(all->of[3 * i + 1], which->of);
+  out->of[3 * i + 2] = f8_choose(all->of[3 * i + 2], which->of);
 }
 
 // The rays m of half h and the triangle of each, by number in the leaf's list.
@@ -76,7 +77,9 @@ SIMD void packet_leaf(packet *p, const wide_tree *t, uint32_t child, uint32_t m,
       uint32_t half = now >> HALF * h & 0xff;
       if (half == 0) continue;
       leaf_tests of;
-      choice_corners(&of.at, &at, &which[h]);
+      choice_corner(&of.at, &at, &which[h], 0);
+      choice_corner(&of.at, &at, &which[h], 1);
+      choice_corner(&of.at, &at, &which[h], 2);
       packet_settle(p, &of, leaf + 9 * n, &which[h], half, h, any);
     }
     left &= p->alive;

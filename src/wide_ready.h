@@ -56,19 +56,32 @@ SIMD void walk_row(wide_walk *w, size_t i, const float row[8]) {
   memcpy((char *)w + i * sizeof(f8), row, sizeof(f8));
 }
 
+// Row i of a walk: the first numbers of eight columns, one by one, as they will
+// be asked for.
+SIMD void walk_first(wide_walk *w, size_t i, const f8 column[8]) {
+  char *to = (char *)w + i * sizeof(f8);
+  memcpy(to, &column[0], sizeof(float));
+  memcpy(to + 4, &column[1], sizeof(float));
+  memcpy(to + 8, &column[2], sizeof(float));
+  memcpy(to + 12, &column[3], sizeof(float));
+  memcpy(to + 16, &column[4], sizeof(float));
+  memcpy(to + 20, &column[5], sizeof(float));
+  memcpy(to + 24, &column[6], sizeof(float));
+  memcpy(to + 28, &column[7], sizeof(float));
+}
+
 // One ray alone; false for one that can hit nothing.
 SIMD bool walk_start(wide_walk *w, const wide_tree *t, const ray *r) {
-  f8 v[8];
-  ready_rays q;
   if (t->nodes == NULL) return false;
-  for (int k = 0; k < 8; k++)
-    v[k] = f8_all((&r->o.x)[k]);
+  const f8 v[8] = {f8_all(r->o.x),  f8_all(r->o.y), f8_all(r->o.z),
+                   f8_all(r->d.x),  f8_all(r->d.y), f8_all(r->d.z),
+                   f8_all(r->tmin), f8_all(r->tmax)};
+  ready_rays q;
   ready_columns(&q, t, v);
-  float row[8][8];
-  for (size_t i = 0; i < ROWS; i++) {
-    f8_store_rows(row, q.column[i]);
-    walk_row(w, i, row[0]);
-  }
+  walk_first(w, 0, q.column[0]);
+  walk_first(w, 1, q.column[1]);
+  walk_first(w, 2, q.column[2]);
+  walk_first(w, 3, q.column[3]);
   w->r = r;
   return (q.can & 1) != 0;
 }
