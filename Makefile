@@ -109,8 +109,10 @@ $(B)/src/wide_avx512.o $(B)/src/vertex_many_avx512.o $(B)/src/ready_avx512.o: FL
 endif
 
 # Loops over lanes become vector instructions where nothing else is asked of
-# them: errno and traps.
+# them: errno and traps.  Not where sanitizers watch, whose checks are in the way.
+ifndef SAN
 $(B)/src/vertex_many_%.o $(B)/src/ready_%.o: LOOPS := -O3 -fno-math-errno -fno-trapping-math
+endif
 
 # The files of shaders/ as one table of names and texts (src/glsl.h).
 SHADERS := $(wildcard shaders/*.glsl shaders/*.vert shaders/*.frag)
