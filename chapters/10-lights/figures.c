@@ -632,7 +632,7 @@ static void draw_glass(output *o) {
   if (!camera_view_of(&v, scene_camera(&s->scene, NULL), 400, 400, &err))
     give_up(&err, 4);
   double start = clock_seconds();
-  image parts[2] = {render_balls(o, s, &by, 11)};
+  image parts[2] = {render_balls(o, s, &by, 16)};
   double plain = clock_seconds() - start;
   path_lesson lesson = {&v, 400, 400};
   start = clock_seconds();
