@@ -49,7 +49,7 @@ CHAPTER_6 := $(CHAPTER_5) microfacet dfg bsdf_rough raster_rough
 CHAPTER_7 := $(CHAPTER_6) ibl_level ibl_lobe ibl_wave ibl_source ibl_methods \
              cache_folder cache ibl_cache ibl raster_env
 CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
-CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_world vertex path_naive film shard tally first_hit render_guide render_sums \
+CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_world vertex roulette path_naive film shard tally first_hit render_guide render_sums \
              render_keep render
 CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
               light_bound light_tree light_tree_build light_part light_memory \

@@ -5,19 +5,9 @@
 
 #include "path.h"
 
+#include "roulette.h"
 #include "tracer.h"
 #include "vertex.h"
-
-// A path whose throughput falls below this plays roulette for it.
-#define PLAY_BELOW 0.25f
-
-// From this segment on even a path that lost nothing is ended with probability
-// 1 - ENDLESS_SURVIVAL.
-enum { ENDLESS_FROM = 4096 };
-#define ENDLESS_SURVIVAL 0.999f
-
-// The most rays of a path; see path_naive.c.
-enum { MOST_RAYS = 100000 };
 
 // A path between two waves.
 typedef struct path {
@@ -196,8 +186,7 @@ static void ask_aims(wave *w, const stop *s, const bsdf *b) {
 
 // Russian roulette.
 static bool survives(path *p, float u) {
-  float q = vec3_peak(p->throughput) / PLAY_BELOW;
-  q = float_min(q, p->segment < ENDLESS_FROM ? 1 : ENDLESS_SURVIVAL);
+  float q = roulette_odds(p->throughput, p->segment);
   if (q >= 1) return true;
   if (u >= q) return false;
   p->throughput = vec3_scale(p->throughput, 1 / q);
@@ -254,7 +243,7 @@ static bool step(wave *w, stop *s, ray *r) {
     bool last = world->max_depth > 0 && p->segment >= world->max_depth;
     goes_on = !last && bounce(w, s, r);
   }
-  if (w->steps + 1 < MOST_RAYS) return goes_on;
+  if (w->steps + 1 < ROULETTE_MAX_RAYS) return goes_on;
   w->stats->cut += goes_on;
   return false;
 }

@@ -2,19 +2,8 @@
 
 #include "path_naive.h"
 
+#include "roulette.h"
 #include "vertex.h"
-
-// A path whose throughput falls below this plays roulette for it.
-#define ROULETTE_BELOW 0.25f
-
-// From this segment on even a path that lost nothing is ended with probability
-// 1 - LOSSLESS_SURVIVAL, so that mirrors facing each other end.
-enum { LOSSLESS_FROM = 4096 };
-#define LOSSLESS_SURVIVAL 0.999f
-
-// The most rays of a path.  Unreachable by the roulette above (e^-99), except
-// through sheets that let light straight through, which do not play.
-enum { PATH_MAX_RAYS = 100000 };
 
 // A path on its way: what it has gathered, and what the rest still counts.
 typedef struct walk {
@@ -72,8 +61,7 @@ static bool scatter(walk *k, const vertex *v, const bsdf *b) {
 // Russian roulette: a path of little throughput ends with a probability, and
 // the survivors stand for the ended ones.
 static bool survives(walk *k, int segment) {
-  float q = vec3_peak(k->throughput) / ROULETTE_BELOW;
-  q = float_min(q, segment < LOSSLESS_FROM ? 1 : LOSSLESS_SURVIVAL);
+  float q = roulette_odds(k->throughput, segment);
   if (q >= 1) return true;
   if (rng_next(k->random) >= q) return false;
   k->throughput = vec3_scale(k->throughput, 1 / q);
@@ -98,7 +86,7 @@ vec3 path_naive_radiance(const path_world *w, ray r, rng *random,
                          path_stats *stats) {
   walk k = {w, random, stats, r, vec3_all(0), vec3_all(1), 0};
   int segment = 1;
-  for (int rays = 0; rays < PATH_MAX_RAYS; rays++) {
+  for (int rays = 0; rays < ROULETTE_MAX_RAYS; rays++) {
     hit h;
     if (!closest(&k, &k.ray, &h)) {
       vec3 sky = env_radiance(&w->scene->env, vec3_unit(k.ray.d));
