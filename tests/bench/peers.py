@@ -11,6 +11,9 @@ the measured points.  With --z-test instead: do both converge to the same
 picture?  Each renders with --parts seeds; their means' difference over its
 standard deviation, in every pixel and channel, passes where it is no less
 likely than 1 in 100 for the largest of as many (Sidak); 99.75 % have to.
+Where Mitsuba's pixels are dark but for rare bright samples (caustics), their
+means are far from normal until there are hundreds of them: --theirs gives its
+samples a part.
 Source: the render tests of Mitsuba 3, Subr and Arvo 2007.  The reference is Mitsuba's own, rendered once with
 --reference samples and kept in the folder; scripts that compare facet with
 itself are facet bench error's matter.
@@ -228,7 +231,7 @@ def z_test(name, options):
     scene, width, height = load_scene(path)
     out = str(options.folder / "peers.pfm")
     spp = options.spp[-1]
-    theirs = parts_of(lambda seed: by_mitsuba(scene, spp, seed)[0], options.parts)
+    theirs = parts_of(lambda seed: by_mitsuba(scene, options.theirs or spp, seed)[0], options.parts)
     ours = parts_of(lambda seed: by_facet(options.facet, path, spp, seed, out)[0], options.parts)
     # Where neither saw anything vary, the rounding of sums is what is left.
     z = (ours[0] - theirs[0]) / np.sqrt(ours[1] + theirs[1] + (1e-6 * (1 + theirs[0])) ** 2)
@@ -251,6 +254,7 @@ def main():
     parser.add_argument("--reference", default=2048, type=int)
     parser.add_argument("--z-test", action="store_true")
     parser.add_argument("--parts", default=32, type=int)
+    parser.add_argument("--theirs", type=int)
     parser.add_argument("--variant", default="llvm_ad_rgb")
     options = parser.parse_args()
     mi.set_variant(options.variant)
