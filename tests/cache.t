@@ -105,9 +105,12 @@ ok "a limit of the shell is no error" sh -c 'ulimit -f 1000
   - "$facet" "$T"
 ok "nor is anything left of what did not fit" test "$(kept '*tree*')" = 0
 ok "and the picture is there" same hurt without
-ok "whose own limit is one" sh -c 'ulimit -f 0
+case $FACET_SANITIZED in
+*thread*) skip "whose own limit is one" "ThreadSanitizer writes a file before facet starts" ;;
+*) ok "whose own limit is one" sh -c 'ulimit -f 0
   "$1" render "$2/ball.obj" --engine path -r 48x32 -q --no-cache -o "$2/no.png"
-  test $? = 4 && test ! -e "$2/no.png"' - "$facet" "$T"
+  test $? = 4 && test ! -e "$2/no.png"' - "$facet" "$T" ;;
+esac
 
 # Six at once, none of which finds a file at its start.
 for i in 1 2 3 4 5 6; do draw ball "at$i" -j 1 & done

@@ -5,7 +5,7 @@
 # failed, and a count; exit status 1 when there is one.
 bad=0 good=0
 here=$(pwd)
-export FACET_QUICK=1 FACET_SANITIZED=1
+export FACET_QUICK=1
 export LSAN_OPTIONS="suppressions=$here/tests/leaks.supp:print_suppressions=0"
 export TSAN_OPTIONS="halt_on_error=1:suppressions=$here/tests/races.supp"
 log=build/sanitize-long.log
@@ -19,6 +19,7 @@ check() { # NAME COMMAND...
   [ $word = ok ] || { grep -A 12 '^not ok' "$log"; tail -40 "$log"; }
 }
 for build; do
+  export FACET_SANITIZED="$build"
   for source in tests/test_*.c; do
     test=$(basename "$source" .c)
     check "$build $test" "$build/tests/$test"
