@@ -60,8 +60,7 @@ CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_spl
              simd_base simd_avx2 simd simd_lanes simd_squeeze wide_cost wide_tree wide_levels wide_box wide_columns wide_ready wide_packet wide_edges wide_tests wide_distance wide_leaf wide_single wide_push \
              wide_alike wide_gather wide_interval wide_packet_leaf \
              wide_descent wide_flight wide_pending wide_steps wide_start wide_stream wide_kernel wide_base wide_avx2 wide_avx512 wide \
-             vertex_many_levels vertex_lanes vertex_lanes_facet vertex_lanes_smooth vertex_lanes_find \
-             vertex_many_kernel vertex_many_base vertex_many_avx2 vertex_many_avx512 vertex_many \
+             vertex_lanes vertex_lanes_facet vertex_lanes_smooth vertex_lanes_find \
              ready_levels ready_work ready_numbers ready_num ready_keys ready_leaf ready_pick ready_triangle ready_leave \
              ready_kernel ready_base ready_avx2 ready_avx512 ready
 CHAPTER_13 := $(CHAPTER_12) plan_sight plan plan_word plan_use tree_cache
@@ -104,14 +103,14 @@ $(B)/%.o: %.c Makefile
 # asks the processor which it has.
 ifneq (,$(findstring x86_64,$(shell $(CC) -dumpmachine)))
 AVX2 := -mavx2 -mfma -mbmi -mbmi2
-$(B)/src/wide_avx2.o $(B)/src/vertex_many_avx2.o $(B)/src/ready_avx2.o: FLAGS += $(AVX2)
-$(B)/src/wide_avx512.o $(B)/src/vertex_many_avx512.o $(B)/src/ready_avx512.o: FLAGS += $(AVX2) -mavx512f -mavx512vl -mavx512dq -mavx512bw
+$(B)/src/wide_avx2.o $(B)/src/ready_avx2.o: FLAGS += $(AVX2)
+$(B)/src/wide_avx512.o $(B)/src/ready_avx512.o: FLAGS += $(AVX2) -mavx512f -mavx512vl -mavx512dq -mavx512bw
 endif
 
 # Loops over lanes become vector instructions where nothing else is asked of
 # them: errno and traps.  Not where sanitizers watch, whose checks are in the way.
 ifndef SAN
-$(B)/src/vertex_many_%.o $(B)/src/ready_%.o: LOOPS := -O3 -fno-math-errno -fno-trapping-math
+$(B)/src/ready_%.o: LOOPS := -O3 -fno-math-errno -fno-trapping-math
 endif
 
 # The files of shaders/ as one table of names and texts (src/glsl.h).

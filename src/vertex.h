@@ -16,11 +16,6 @@ typedef struct vertex {
 // At a hit of a ray with direction d; n, t and b come with vertex_matter.
 vertex vertex_at(const scene *s, const hit *h, vec3 d);
 
-// The same for many: out[i] = vertex_at(s, &hits[i], rays[i].d) for n hits,
-// none of them a miss.
-typedef void vertices_function(const scene *s, const hit *hits, const ray *rays,
-                               size_t n, vertex *out);
-
 // The part of that which comes last: the two normals of v->at, turned.
 void vertex_face(vertex *v, const scene *s, const hit *h);
 

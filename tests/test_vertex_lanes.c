@@ -1,11 +1,13 @@
-// test_vertex_many.c — sixteen vertices at once are the vertices one by one, to
-// the bit, by every set of instructions that runs here.
+// test_vertex_lanes.c — sixteen vertices at once are the vertices one by one,
+// to the bit, by every set of instructions that runs here.
 
-#include "vertex_many.h"
+#include "ready.h"
 #include "wide.h"
 #include "world_hits.h"
 
 #include <string.h>
+
+enum { LONGEST = 40 };
 
 static void assert_same(const void *a, const void *b, size_t bytes) {
   assert_memory_equal(a, b, bytes);
@@ -30,23 +32,42 @@ static void assert_same_vertex(const vertex *a, const vertex *b) {
   assert_same(&a->ng, &b->ng, sizeof(vec3));
 }
 
-// Every level, and runs of every length up to 40.
+// All vertices in runs of every length up to LONGEST, with no lights to ask.
+static void find(const world *w, ready_function *by, const hit *hits,
+                 const ray *rays, size_t n, vertex *out) {
+  sampler numbers[LONGEST];
+  path_ready ready[(LONGEST + LANES - 1) / LANES];
+  for (uint32_t i = 0; i < LONGEST; i++)
+    numbers[i] = sampler_of(SAMPLER_SOBOL, 5, i, i);
+  for (size_t from = 0, run = 1; from < n;
+       from += run, run = run % LONGEST + 1) {
+    if (run > n - from) run = n - from;
+    ready_job j = {.scene = &w->scene,
+                   .dimension = 2,
+                   .hits = hits + from,
+                   .rays = rays + from,
+                   .numbers = numbers,
+                   .at = out + from,
+                   .ready = ready};
+    by(&j, run);
+  }
+}
+
+// Every level that runs here.
 static void check(const char *name, world *w) {
   world_ready(w, 0);
   hit *hits = ARENA_NEW(&w->mem, hit, HITS);
   ray *rays = ARENA_NEW(&w->mem, ray, HITS);
   vertex *out = ARENA_NEW(&w->mem, vertex, HITS);
   size_t n = world_hits(w, 3, hits, rays);
-  assert_true(n > 40);
+  assert_true(n > LONGEST);
   int levels = 0;
   for (int level = 0; level < WIDE_LEVELS; level++) {
-    vertices_function *by = vertex_many_by(level);
+    ready_function *by = ready_by(level);
     if (by == NULL) continue;
     levels++;
-    for (size_t from = 0, run = 1; from < n; from += run, run = run % 40 + 1) {
-      if (run > n - from) run = n - from;
-      by(&w->scene, hits + from, rays + from, run, out + from);
-    }
+    memset(out, 0, n * sizeof *out);
+    find(w, by, hits, rays, n, out);
     for (size_t i = 0; i < n; i++) {
       vertex one = vertex_at(&w->scene, &hits[i], rays[i].d);
       assert_same_vertex(&one, &out[i]);
