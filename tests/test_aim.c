@@ -3,53 +3,23 @@
 // nonsense, and what a mirror shows is known.
 
 #include "aim_learn.h"
-#include "ready.h"
-#include "worlds.h"
-
-#include <string.h>
+#include "walkers.h"
 
 enum { WIDTH = 48, HEIGHT = 36 };
 
 static const vec3 BLACK = {0, 0, 0};
 
-// A walker of a world, and the film that it learns from.
-typedef struct walker {
-  light_set lights;
-  path_tracer tracer;
-  integrator by;
-  camera_view view, lesson;
-} walker;
-
-enum { LESSON = 4 };  // times the film
-
-static void walker_ready(walker *k, world *w, vec3 eye, vec3 target) {
-  k->view = world_view(eye, target, 50, WIDTH, HEIGHT);
-  k->lesson = world_view(eye, target, 50, LESSON * WIDTH, LESSON * HEIGHT);
-  light_set_build(&k->lights, &w->scene, w->path.lights, true, &w->mem, NULL);
-  k->tracer = (path_tracer){.world = &w->path,
-                            .lights = &k->lights,
-                            .ready = ready_best(),
-                            .seed = 3};
-  k->by = path_integrator(&k->tracer);
+static void mirror_walker(walker *k, world *w, vec3 eye, vec3 target) {
+  walker_ready(k, &w->path, 3, &w->mem);
+  k->camera = (camera){NULL, eye, target, {0, 1, 0}, 50};
+  k->width = WIDTH, k->height = HEIGHT;
 }
 
-static bool learn(walker *k, world *w, pool *threads) {
-  path_lesson l = {&k->lesson, LESSON * WIDTH, LESSON * HEIGHT};
-  k->tracer.aim = aim_learn(&k->tracer, &l, &w->mem, threads);
+static bool learn(walker *k, pool *threads) {
+  camera_view view;
+  path_lesson lesson = walker_lesson(k, &view);
+  k->tracer.aim = aim_learn(&k->tracer, &lesson, k->mem, threads);
   return k->tracer.aim != NULL;
-}
-
-static render_result draw(world *w, const walker *k, int spp, pool *threads) {
-  render_settings how = {.width = WIDTH,
-                         .height = HEIGHT,
-                         .spp = spp,
-                         .seed = 3,
-                         .by = &k->by,
-                         .aovs = RENDER_AOV_VARIANCE};
-  render_result r;
-  render_run(&r, &w->path, &k->view, &how, &w->mem, threads);
-  assert_int_equal(r.non_finite, 0);
-  return r;
 }
 
 // Three spheres, of which two overlap; and one that o may be inside of.
@@ -105,13 +75,6 @@ static void densities_are_those_of_samples(void **state) {
   }
 }
 
-// Share of the hemisphere's projected solid angle of the rectangle a x b at
-// height h with a corner straight above.
-static double corner_factor(double a, double b, double h) {
-  double x = a / h, y = b / h, p = sqrt(1 + x * x), q = sqrt(1 + y * y);
-  return (x / p * atan(y / p) + y / q * atan(x / q)) / (2 * 3.141592653589793);
-}
-
 // A lamp of 0.5 x 0.4 at height 1 that shines up, at a mirror at height 2: the
 // floor, which it does not shine on, sees it at height 3.
 static world *mirrored_lamp(double *radiance) {
@@ -131,11 +94,11 @@ static world *mirrored_lamp(double *radiance) {
 }
 
 // The mean of samples along one ray, of whom each pixel has its own.
-static estimate mean_along(world *w, const walker *k, ray r) {
+static estimate mean_along(const walker *k, ray r) {
   const size_t n = INTEGRATOR_BATCH;
-  void *room = k->by.room(k->by.self, &w->mem);
-  path_start *starts = ARENA_NEW(&w->mem, path_start, n);
-  vec3 *out = ARENA_NEW(&w->mem, vec3, n);
+  void *room = k->by.room(k->by.self, k->mem);
+  path_start *starts = ARENA_NEW(k->mem, path_start, n);
+  vec3 *out = ARENA_NEW(k->mem, vec3, n);
   path_stats stats = {0};
   double sum = 0, sum2 = 0;
   const long batches = shortened(128);
@@ -167,12 +130,12 @@ static void mirrored_lamps_shine(void **state) {
   double want;
   world *w = mirrored_lamp(&want);
   walker k;
-  walker_ready(&k, w, (vec3){0, 0.8f, 4}, (vec3){0, 0, 0});
+  mirror_walker(&k, w, (vec3){0, 0.8f, 4}, (vec3){0, 0, 0});
   ray r = ray_from((vec3){0, 0.5f, 2}, (vec3){0, -0.5f, -2});
-  estimate plain = mean_along(w, &k, r);
+  estimate plain = mean_along(&k, r);
   check("scattered", plain, want);
-  assert_true(learn(&k, w, NULL));
-  estimate aimed = mean_along(w, &k, r);
+  assert_true(learn(&k, NULL));
+  estimate aimed = mean_along(&k, r);
   check("aimed", aimed, want);
   assert_true(aimed.error < 0.2 * plain.error);
   aim_cell nonsense[1] = {some_cell()};
@@ -185,7 +148,7 @@ static void mirrored_lamps_shine(void **state) {
   for (int i = 0; i < 4; i++) {
     aim_map map = {nodes, nonsense, KEEN[i]};
     k.tracer.aim = &map;
-    check("aimed at random", mean_along(w, &k, r), want);
+    check("aimed at random", mean_along(&k, r), want);
   }
   world_free(w);
 }
@@ -209,40 +172,7 @@ static world *room_with_balls(void) {
 }
 
 static void room_walker(walker *k, world *w) {
-  walker_ready(k, w, (vec3){0, 1.6f, 1.9f}, (vec3){0, 0.8f, -1});
-}
-
-// The sum of differences of two pictures over their standard error, and the
-// mean square of that over blocks.
-static void compare(const render_result *a, const render_result *b, double *z,
-                    double *square) {
-  double difference = 0, variance = 0;
-  int blocks = 0;
-  *square = 0;
-  for (size_t y = 0; y < HEIGHT; y += 12)
-    for (size_t x = 0; x < WIDTH; x += 12) {
-      double d = 0, v = 0;
-      for (size_t i = 0; i < 144; i++) {
-        size_t at = (y + i / 12) * WIDTH + x + i % 12;
-        d += (double)(a->color.pixels[at].y - b->color.pixels[at].y);
-        v += (double)(a->aov[3].pixels[at].y + b->aov[3].pixels[at].y);
-      }
-      difference += d;
-      variance += v;
-      *square += d * d / v;
-      blocks++;
-    }
-  *z = difference / sqrt(variance);
-  *square /= blocks;
-}
-
-static double noise_of(const render_result *r) {
-  double sum = 0;
-  for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
-    double mean = (double)r->color.pixels[i].y;
-    sum += (double)r->aov[3].pixels[i].y / (mean * mean + 0.01);
-  }
-  return sum / (WIDTH * HEIGHT);
+  mirror_walker(k, w, (vec3){0, 1.6f, 1.9f}, (vec3){0, 0.8f, -1});
 }
 
 // The same light in each part of the picture as by the naive walk, with less
@@ -252,40 +182,27 @@ static void rooms_are_the_same(void **state) {
   world *w = room_with_balls();
   walker k;
   room_walker(&k, w);
-  path_naive naive = {&w->path, 3};
-  integrator by = k.by;
-  k.by = path_naive_integrator(&naive);
-  render_result truth = draw(w, &k, (int)shortened(400), NULL);
-  k.by = by;
-  render_result plain = draw(w, &k, 100, NULL);
-  assert_true(learn(&k, w, NULL));
-  render_result aimed = draw(w, &k, 100, NULL);
-  double z, square;
-  compare(&aimed, &truth, &z, &square);
+  render_result truth = walker_draw_naive(&k, (int)shortened(400), 3);
+  render_result plain = walker_draw(&k, 100, NULL);
+  assert_true(learn(&k, NULL));
+  render_result aimed = walker_draw(&k, 100, NULL);
+  likeness l = likeness_of(&aimed, &truth, 12);
+  double noise = noise_of(&aimed, &aimed), before = noise_of(&plain, &plain);
+  const int pixels = WIDTH * HEIGHT;
   print_message("# against naive z %.2f, blocks' mean square %.2f; noise %.3g, "
                 "not aimed %.3g\n",
-                z, square, noise_of(&aimed), noise_of(&plain));
-  assert_true(fabs(z) < 4);
-  assert_true(square < 2);
-  assert_true(noise_of(&aimed) < 0.5 * noise_of(&plain));
+                l.z, l.square, noise / pixels, before / pixels);
+  assert_int_equal(l.blank, 0);
+  assert_true(fabs(l.z) < 4);
+  assert_true(l.square < 2);
+  assert_true(noise < 0.5 * before);
   world_free(w);
 }
 
-// Threads do not show.
 static void same_map(void **state) {
   (void)state;
   world *w = room_with_balls();
-  render_result pictures[2];
-  for (int i = 0; i < 2; i++) {
-    walker k;
-    room_walker(&k, w);
-    pool *threads = pool_new(&w->mem, i == 0 ? 1 : 7);
-    assert_true(learn(&k, w, threads));
-    pictures[i] = draw(w, &k, 2, threads);
-    pool_free(threads);
-  }
-  assert_memory_equal(pictures[0].color.pixels, pictures[1].color.pixels,
-                      WIDTH * HEIGHT * sizeof(vec3));
+  assert_same_lesson(w, room_walker, learn);
   world_free(w);
 }
 
@@ -309,7 +226,7 @@ static void nothing_to_aim_at(void **state) {
     if (i == 3) w->path.max_depth = 2;
     walker k;
     room_walker(&k, w);
-    assert_false(learn(&k, w, NULL));
+    assert_false(learn(&k, NULL));
     world_free(w);
   }
 }

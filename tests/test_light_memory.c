@@ -1,11 +1,7 @@
 // test_light_memory.c — lights that are remembered: parts of emitters, and the
 // same light with whatever memory.
 
-#include "path_learn.h"
-#include "ready.h"
-#include "worlds.h"
-
-#include <string.h>
+#include "walkers.h"
 
 enum { WIDTH = 64, HEIGHT = 48 };
 
@@ -39,48 +35,16 @@ static world *room_with_hole(float outside) {
 }
 
 // A walker of a world from a camera in the right corner.
-typedef struct walker {
-  light_set lights;
-  path_tracer tracer;
-  integrator by;
+static void corner_walker(walker *k, world *w) {
+  walker_ready(k, &w->path, 3, &w->mem);
+  k->camera = (camera){NULL, {1.6f, 1.2f, 1.7f}, {-1, 0.5f, -1}, {0, 1, 0}, 65};
+  k->width = WIDTH, k->height = HEIGHT;
+}
+
+static bool learn(walker *k, pool *threads) {
   camera_view view;
-} walker;
-
-static void walker_ready(walker *k, world *w) {
-  camera c = {NULL, {1.6f, 1.2f, 1.7f}, {-1, 0.5f, -1}, {0, 1, 0}, 65};
-  error err;
-  assert_true(camera_view_of(&k->view, &c, WIDTH, HEIGHT, &err));
-  light_set_build(&k->lights, &w->scene, true, true, &w->mem, NULL);
-  k->tracer = (path_tracer){.world = &w->path,
-                            .lights = &k->lights,
-                            .ready = ready_best(),
-                            .seed = 3};
-  k->by = path_integrator(&k->tracer);
-}
-
-// A lesson of as many paths as those of a larger picture.
-static bool learn(walker *k, world *w, pool *threads) {
-  path_lesson lesson = {&k->view, 4 * WIDTH, 4 * HEIGHT};
-  error err;
-  camera_view small = k->view;
-  camera c = {NULL, {1.6f, 1.2f, 1.7f}, {-1, 0.5f, -1}, {0, 1, 0}, 65};
-  assert_true(camera_view_of(&k->view, &c, lesson.width, lesson.height, &err));
-  bool any = path_learn(&k->lights, &k->tracer, &lesson, &w->mem, threads);
-  k->view = small;
-  return any;
-}
-
-static render_result draw(world *w, const walker *k, int spp, pool *threads) {
-  render_settings how = {.width = WIDTH,
-                         .height = HEIGHT,
-                         .spp = spp,
-                         .seed = 3,
-                         .by = &k->by,
-                         .aovs = RENDER_AOV_VARIANCE};
-  render_result r;
-  render_run(&r, &w->path, &k->view, &how, &w->mem, threads);
-  assert_int_equal(r.non_finite, 0);
-  return r;
+  path_lesson lesson = walker_lesson(k, &view);
+  return path_learn(&k->lights, &k->tracer, &lesson, k->mem, threads);
 }
 
 // The parts of a lamp cover it once: their areas add up, and a point inside of
@@ -89,7 +53,7 @@ static void parts_cover_the_whole(void **state) {
   (void)state;
   world *w = room_with_hole(1);
   walker k;
-  walker_ready(&k, w);
+  corner_walker(&k, w);
   light_parts parts;
   assert_true(light_parts_of(&parts, &k.lights.near, &w->mem));
   assert_int_equal(parts.count, 2 * 5 * 5);
@@ -132,7 +96,7 @@ static void lies_do_no_harm(void **state) {
   (void)state;
   world *w = room_with_hole(1);
   walker k;
-  walker_ready(&k, w);
+  corner_walker(&k, w);
   light_memory m;
   vec3 p = {0.5f, 0.1f, 0.2f}, n = {0, 1, 0};
   assert_true(
@@ -167,44 +131,16 @@ static void lies_do_no_harm(void **state) {
   world_free(w);
 }
 
-// Two pictures of the same light: how far apart their means are and, on the
-// average, blocks of 64 pixels, in standard errors; and the noise of each,
-// relative to what is seen.
-typedef struct likeness {
-  double z, squares, noise[2];
-} likeness;
-
-static double square_of_block(const render_result r[2], size_t x, size_t y) {
-  double d = 0, v = 0;
-  for (size_t i = 0; i < 64; i++) {
-    size_t at = (y + i / 8) * WIDTH + x + i % 8;
-    d += (double)r[0].color.pixels[at].y - (double)r[1].color.pixels[at].y;
-    v += (double)r[0].aov[3].pixels[at].y + (double)r[1].aov[3].pixels[at].y;
-  }
-  return v > 0 ? d * d / v : 0;
-}
-
-static likeness compare(const render_result r[2]) {
-  likeness l = {0};
-  double difference = 0, variance = 0;
-  for (size_t i = 0; i < WIDTH * HEIGHT; i++) {
-    double mean = (double)r[0].color.pixels[i].y;
-    difference += mean - (double)r[1].color.pixels[i].y;
-    for (int k = 0; k < 2; k++) {
-      double v = (double)r[k].aov[3].pixels[i].y;
-      l.noise[k] += v / (mean * mean + 0.01);
-      variance += v;
-    }
-  }
-  for (size_t y = 0; y < HEIGHT; y += 8)
-    for (size_t x = 0; x < WIDTH; x += 8)
-      l.squares += square_of_block(r, x, y) / (WIDTH * HEIGHT / 64);
-  l.z = difference / sqrt(variance);
-  print_message("# noise %.3g and %.3g; z %.2f, mean square %.2f\n", l.noise[0],
-                l.noise[1], l.z, l.squares);
+// Two pictures of the same light, of whom the second has less than half of the
+// variance.
+static void check_better(const render_result r[2]) {
+  likeness l = likeness_of(&r[0], &r[1], 8);
+  double before = noise_of(&r[0], &r[0]), after = noise_of(&r[1], &r[0]);
+  print_message("# noise %.3g and %.3g; z %.2f, mean square %.2f\n", before,
+                after, l.z, l.square);
   assert_true(fabs(l.z) < 4);
-  assert_true(l.squares < 1.5);
-  return l;
+  assert_true(l.square < 1.5);
+  assert_true(after < 0.5 * before);
 }
 
 // A lamp behind a hole: the same picture with memory, and less than half of
@@ -213,12 +149,11 @@ static void memory_helps(void **state) {
   (void)state;
   world *w = room_with_hole(1);
   walker k;
-  walker_ready(&k, w);
-  render_result r[2] = {draw(w, &k, 64, NULL)};
-  assert_true(learn(&k, w, NULL));
-  r[1] = draw(w, &k, 64, NULL);
-  likeness l = compare(r);
-  assert_true(l.noise[1] < 0.5 * l.noise[0]);
+  corner_walker(&k, w);
+  render_result r[2] = {walker_draw(&k, 64, NULL)};
+  assert_true(learn(&k, NULL));
+  r[1] = walker_draw(&k, 64, NULL);
+  check_better(r);
   world_free(w);
 }
 
@@ -227,30 +162,18 @@ static void questions_help(void **state) {
   (void)state;
   world *w = room_with_hole(1);
   walker k;
-  walker_ready(&k, w);
-  render_result r[2] = {draw(w, &k, 16, NULL)};
+  corner_walker(&k, w);
+  render_result r[2] = {walker_draw(&k, 16, NULL)};
   k.tracer.questions = 8;
-  r[1] = draw(w, &k, 16, NULL);
-  likeness l = compare(r);
-  assert_true(l.noise[1] < 0.5 * l.noise[0]);
+  r[1] = walker_draw(&k, 16, NULL);
+  check_better(r);
   world_free(w);
 }
 
-// Threads do not show in what is learned.
 static void same_memory(void **state) {
   (void)state;
   world *w = room_with_hole(1);
-  render_result pictures[2];
-  for (int i = 0; i < 2; i++) {
-    walker k;
-    walker_ready(&k, w);
-    pool *threads = pool_new(&w->mem, i == 0 ? 1 : 7);
-    assert_true(learn(&k, w, threads));
-    pictures[i] = draw(w, &k, 2, threads);
-    pool_free(threads);
-  }
-  assert_memory_equal(pictures[0].color.pixels, pictures[1].color.pixels,
-                      WIDTH * HEIGHT * sizeof(vec3));
+  assert_same_lesson(w, corner_walker, learn);
   world_free(w);
 }
 
@@ -266,8 +189,8 @@ static void nothing_to_remember(void **state) {
   world_quad(w, (vec3){-1, 2, -1}, (vec3){2, 0, 0}, (vec3){0, 0, 2}, 1);
   world_ready(w, 0);
   walker k;
-  walker_ready(&k, w);
-  assert_false(learn(&k, w, NULL));
+  corner_walker(&k, w);
+  assert_false(learn(&k, NULL));
   assert_true(k.lights.memory == NULL);
   world_free(w);
   w = world_new();
@@ -275,8 +198,8 @@ static void nothing_to_remember(void **state) {
   w->materials[0].ke = vec3_all(1);
   world_ball(w, vec3_all(0), 1, 3, false, 0);
   world_ready(w, 0);
-  walker_ready(&k, w);
-  assert_false(learn(&k, w, NULL));
+  corner_walker(&k, w);
+  assert_false(learn(&k, NULL));
   world_free(w);
 }
 

@@ -259,13 +259,6 @@ static void black_ball(void **state) {
   }
 }
 
-// Share of the hemisphere's projected solid angle of the rectangle a x b at
-// height h with a corner straight above.
-static double corner_factor(double a, double b, double h) {
-  double x = a / h, y = b / h, p = sqrt(1 + x * x), q = sqrt(1 + y * y);
-  return (x / p * atan(y / p) + y / q * atan(x / q)) / (2 * 3.141592653589793);
-}
-
 // A lamp of 2 x 1 at height 1.2 above the floor gives E = pi L F with the
 // form factor of a rectangle; its back is dark.
 static void rectangle_lamp(void **state) {

@@ -1,38 +1,17 @@
 // test_path_mis.c — the integrator that looks for lights: scenes whose light is
 // known, and the same pictures as the naive one.
 
-#include "path.h"
-#include "ready.h"
-#include "worlds.h"
-
-#include <string.h>
+#include "walkers.h"
 
 static const vec3 WHITE = {1, 1, 1}, BLACK = {0, 0, 0};
-
-// A world with its lights and somebody to walk it.
-typedef struct walker {
-  light_set lights;
-  path_tracer tracer;
-  integrator by;
-} walker;
-
-static void walker_ready(walker *k, const path_world *w, sampler_kind kind,
-                         uint64_t seed, arena *mem) {
-  light_set_build(&k->lights, w->scene, w->lights, true, mem, NULL);
-  k->tracer = (path_tracer){.world = w,
-                            .lights = &k->lights,
-                            .ready = ready_best(),
-                            .sampler = kind,
-                            .seed = seed};
-  k->by = path_integrator(&k->tracer);
-}
 
 // The mean of n samples along one ray over several pixels' numbers, with the
 // standard error of the mean of those means, which are independent.
 static estimate mean_along(world *w, sampler_kind kind, ray r, size_t n) {
   enum { PIXELS = 64 };
   walker k;
-  walker_ready(&k, &w->path, kind, 5, &w->mem);
+  walker_ready(&k, &w->path, 5, &w->mem);
+  k.tracer.sampler = kind;
   void *room = k.by.room(k.by.self, &w->mem);
   path_start *starts = ARENA_NEW(&w->mem, path_start, n);
   vec3 *out = ARENA_NEW(&w->mem, vec3, n);
@@ -66,13 +45,6 @@ static void check(const char *what, estimate e, double want) {
 
 static void add_floor(world *w, uint32_t of) {
   world_quad(w, (vec3){-50, 0, 50}, (vec3){100, 0, 0}, (vec3){0, 0, -100}, of);
-}
-
-// Share of the hemisphere's projected solid angle of the rectangle a x b at
-// height h with a corner straight above.
-static double corner_factor(double a, double b, double h) {
-  double x = a / h, y = b / h, p = sqrt(1 + x * x), q = sqrt(1 + y * y);
-  return (x / p * atan(y / p) + y / q * atan(x / q)) / (2 * 3.141592653589793);
 }
 
 // A lamp of 2 x 1 at height 1.2 above the floor gives E = pi L F with the
@@ -197,7 +169,6 @@ typedef struct set {
   scene scene;
   bvh tree;
   path_world path;
-  camera_view view;
 } set;
 
 enum { WIDTH = 48, HEIGHT = 36 };
@@ -213,35 +184,13 @@ static void set_load(set *s, const char *path) {
   s->path = (path_world){
       .scene = &s->scene, .tracer = bvh_tracer(&s->tree), .lights = true};
   s->path.dfg = matter_table(&s->scene, PBR_GGX, &s->mem, NULL);
-  assert_true(camera_view_of(&s->view, scene_camera(&s->scene, NULL), WIDTH,
-                             HEIGHT, &err));
 }
 
-// Everything of a picture with its variance, by whoever walks.
-static void draw(render_result *out, set *s, const integrator *by, int spp,
-                 uint64_t seed, pool *threads) {
-  render_settings how = {.width = WIDTH,
-                         .height = HEIGHT,
-                         .spp = spp,
-                         .seed = seed,
-                         .by = by,
-                         .aovs = RENDER_AOV_VARIANCE};
-  render_run(out, &s->path, &s->view, &how, &s->mem, threads);
-  assert_int_equal(out->non_finite, 0);
-}
-
-// The sums of a block of 12 x 12 pixels of two pictures, compared by the
-// variance of either.
-static double block_z(const render_result *a, const render_result *b, int x,
-                      int y) {
-  double difference = 0, variance = 0;
-  for (int v = y; v < y + 12; v++)
-    for (int u = x; u < x + 12; u++) {
-      size_t i = (size_t)(v * WIDTH + u);
-      difference += (double)a->color.pixels[i].y - (double)b->color.pixels[i].y;
-      variance += (double)a->aov[3].pixels[i].y + (double)b->aov[3].pixels[i].y;
-    }
-  return variance > 0 ? difference / sqrt(variance) : 0;
+static void set_walker(walker *k, set *s, sampler_kind kind, uint64_t seed) {
+  walker_ready(k, &s->path, seed, &s->mem);
+  k->tracer.sampler = kind;
+  k->camera = *scene_camera(&s->scene, NULL);
+  k->width = WIDTH, k->height = HEIGHT;
 }
 
 static const char *const scenes[] = {
@@ -261,21 +210,15 @@ static void same_pictures(void **state) {
     set s = {0};
     set_load(&s, scenes[k]);
     walker w;
-    walker_ready(&w, &s.path, SAMPLER_RANDOM, 77, &s.mem);
-    render_result naive, mis;
+    set_walker(&w, &s, SAMPLER_RANDOM, 77);
     int spp = (int)shortened(400);
-    draw(&naive, &s, NULL, spp, 1, NULL);
-    draw(&mis, &s, &w.by, (spp + 3) / 4, 2, NULL);
-    double worst = 0;
-    for (int y = 0; y < HEIGHT; y += 12)
-      for (int x = 0; x < WIDTH; x += 12) {
-        double z = block_z(&naive, &mis, x, y);
-        worst = fmax(worst, fabs(z));
-        squares += z * z;
-        blocks++;
-      }
-    print_message("# %s: worst z %.2f\n", scenes[k], worst);
-    assert_true(worst < 4);
+    render_result naive = walker_draw_naive(&w, spp, 1);
+    render_result mis = walker_draw(&w, (spp + 3) / 4, NULL);
+    likeness l = likeness_of(&naive, &mis, 12);
+    squares += l.square * l.blocks;
+    blocks += l.blocks;
+    print_message("# %s: worst z %.2f\n", scenes[k], l.worst);
+    assert_true(l.worst < 4);
     arena_free(&s.mem);
   }
   print_message("# mean square %.2f of %d blocks\n", squares / blocks, blocks);
@@ -289,23 +232,22 @@ static void same_bytes(void **state) {
   set s = {0};
   set_load(&s, "scenes/cornell-balls.scene");
   walker w;
-  walker_ready(&w, &s.path, SAMPLER_SOBOL, 3, &s.mem);
-  render_result first, other;
-  draw(&first, &s, &w.by, 5, 3, NULL);
-  size_t bytes = sizeof(vec3) * WIDTH * HEIGHT;
+  set_walker(&w, &s, SAMPLER_SOBOL, 3);
+  render_result first = walker_draw(&w, 5, NULL);
   for (int n = 2; n < 8; n += 5) {
     pool *threads = pool_new(&s.mem, n);
-    draw(&other, &s, &w.by, 5, 3, threads);
-    assert_memory_equal(first.color.pixels, other.color.pixels, bytes);
+    render_result other = walker_draw(&w, 5, threads);
+    assert_same_bytes(&first, &other);
     pool_free(threads);
   }
+  camera_view view = walker_view(&w, 1);
   void *room = w.by.room(w.by.self, &s.mem);
   path_stats stats = {0};
   for (size_t i = 0; i < WIDTH * HEIGHT; i += 7) {
     double sum = 0;
     for (uint32_t k = 0; k < 5; k++) {
       vec2 at = w.by.place(w.by.self, i, k);
-      ray r = camera_ray(&s.view, (float)(i % WIDTH) + at.x,
+      ray r = camera_ray(&view, (float)(i % WIDTH) + at.x,
                          (float)(i / WIDTH) + at.y);
       path_start start = {r, i, k};
       vec3 one;

@@ -178,6 +178,13 @@ static inline estimate world_radiance(const world *w, ray r, long n,
   return (estimate){mean, sqrt(variance / (double)n)};
 }
 
+// Share of the hemisphere's projected solid angle of the rectangle a x b at
+// height h with a corner straight above.
+static inline double corner_factor(double a, double b, double h) {
+  double x = a / h, y = b / h, p = sqrt(1 + x * x), q = sqrt(1 + y * y);
+  return (x / p * atan(y / p) + y / q * atan(x / q)) / (2 * 3.141592653589793);
+}
+
 static inline camera_view world_view(vec3 eye, vec3 target, float fov, int w,
                                      int h) {
   camera c = {.eye = eye, .target = target, .up = {0, 1, 0}, .fov_deg = fov};
