@@ -3,17 +3,12 @@
 #include "aim.h"
 
 #include "bsdf.h"
+#include "light_memory.h"
 #include "num.h"
-
-uint32_t aim_side(vec3 n) {
-  vec3 a = vec3_abs(n);
-  if (a.x >= a.y && a.x >= a.z) return n.x < 0;
-  return a.y >= a.z ? 2 + (n.y < 0) : 4 + (n.z < 0);
-}
 
 const aim_cell *aim_at(const aim_map *m, vec3 p, vec3 n) {
   const float at[3] = {p.x, p.y, p.z};
-  const aim_node *k = &m->nodes[aim_side(n)];
+  const aim_node *k = &m->nodes[light_side(n)];
   while (k->axis != AIM_LEAF)
     k = &m->nodes[k->next + (at[k->axis] >= k->at)];
   const aim_cell *c = &m->cells[k->next];

@@ -30,18 +30,15 @@ typedef struct aim_node {
   uint32_t axis, next;
 } aim_node;
 
-enum { AIM_LEAF = 3, AIM_SIDES = 6 };
+enum { AIM_LEAF = 3 };
 
-// A tree over the places of surfaces for each of six sides that they may face;
-// the roots are the first six nodes.
+// A tree over the places of surfaces for each light_side that they may face;
+// the roots are the first nodes.
 typedef struct aim_map {
   aim_node *nodes;
   aim_cell *cells;
   float keen;  // see aim_asked
 } aim_map;
-
-// Which of the sides a surface with normal n faces.
-uint32_t aim_side(vec3 n);
 
 // The cell of a place; NULL where there is nothing to aim at.
 const aim_cell *aim_at(const aim_map *m, vec3 p, vec3 n);

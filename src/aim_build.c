@@ -49,27 +49,22 @@ static uint32_t new_cell(gardener *g, const aim_cell *c) {
   return (uint32_t)g->cell_count - 1;
 }
 
-static float on(vec3 v, uint32_t axis) {
-  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
-static void put(vec3 *v, uint32_t axis, float x) {
+static void put(vec3 *v, int axis, float x) {
   *(axis == 0 ? &v->x : axis == 1 ? &v->y : &v->z) = x;
 }
 
-static uint32_t longest(vec3 d) {
+static int longest(vec3 d) {
   if (d.x >= d.y && d.x >= d.z) return 0;
   return d.y >= d.z ? 1 : 2;
 }
 
 // The photons of a list that come before `at` on an axis, by where they came
 // down or by where they came from, put first; how many.
-static uint32_t part(aim_photon *p, uint32_t n, uint32_t axis, float at,
-                     bool by_y) {
+static uint32_t part(aim_photon *p, uint32_t n, int axis, float at, bool by_y) {
   uint32_t left = 0, right = n;
   while (left < right) {
     aim_photon q = p[left];
-    if (on(by_y ? q.y : q.x, axis) < at) {
+    if (vec3_axis(by_y ? q.y : q.x, axis) < at) {
       left++;
       continue;
     }
@@ -112,8 +107,8 @@ static uint32_t gather(aim_photon *p, const plot *s, bunch *of) {
       if (size_of(&of[i]) > size_of(&of[k])) k = i;
     bunch b = of[k];
     if (!(size_of(&b) > 0)) break;
-    uint32_t axis = longest(vec3_sub(b.hi, b.lo));
-    float at = 0.5f * (on(b.lo, axis) + on(b.hi, axis));
+    int axis = longest(vec3_sub(b.hi, b.lo));
+    float at = 0.5f * (vec3_axis(b.lo, axis) + vec3_axis(b.hi, axis));
     uint32_t left = part(p + b.first, b.count, axis, at, true);
     if (left == 0 || left == b.count) break;
     of[k] = bunch_of(p, b.first, left);
@@ -179,16 +174,17 @@ static void plant(gardener *g, plot all, uint32_t side, float small) {
   while (depth > 0) {
     plot s = stack[--depth];
     vec3 d = vec3_sub(s.hi, s.lo);
-    uint32_t axis = longest(d);
-    if (s.count <= LEAF_MOST || !(on(d, axis) > small) || depth >= DEEPEST) {
+    int axis = longest(d);
+    if (s.count <= LEAF_MOST || !(vec3_axis(d, axis) > small) ||
+        depth >= DEEPEST) {
       aim_cell c = conclude(g->of, &s, side);
       g->nodes[s.node] = (aim_node){0, AIM_LEAF, new_cell(g, &c)};
       continue;
     }
-    float at = 0.5f * (on(s.lo, axis) + on(s.hi, axis));
+    float at = 0.5f * (vec3_axis(s.lo, axis) + vec3_axis(s.hi, axis));
     uint32_t left = part(g->of + s.first, s.count, axis, at, false);
     uint32_t next = new_nodes(g);
-    g->nodes[s.node] = (aim_node){at, axis, next};
+    g->nodes[s.node] = (aim_node){at, (uint32_t)axis, next};
     plot a = {s.first, left, next, s.lo, s.hi};
     plot b = {s.first + left, s.count - left, next + 1, s.lo, s.hi};
     put(&a.hi, axis, at);
@@ -202,13 +198,13 @@ void aim_build(aim_map *out, const aim_photons *photons, vec3 lo, vec3 hi,
                arena *mem) {
   arena scratch = {0};
   gardener g = {.of = ARENA_NEW(&scratch, aim_photon, photons->count)};
-  for (uint32_t i = 0; i < AIM_SIDES; i += 2)
+  for (uint32_t i = 0; i < LIGHT_SIDES; i += 2)
     new_nodes(&g);
   uint32_t end = 0;
-  for (uint32_t side = 0; side < AIM_SIDES; side++) {
+  for (uint32_t side = 0; side < LIGHT_SIDES; side++) {
     plot all = {.first = end, .node = side, .lo = lo, .hi = hi};
     for (size_t i = 0; i < photons->count; i++)
-      if (aim_side(photons->of[i].n) == side) g.of[end++] = photons->of[i];
+      if (light_side(photons->of[i].n) == side) g.of[end++] = photons->of[i];
     all.count = end - all.first;
     plant(&g, all, side, LEAF_SMALL * vec3_peak(vec3_sub(hi, lo)));
   }

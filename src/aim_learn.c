@@ -35,7 +35,6 @@ typedef struct look_job {
 static void look(void *context, size_t item, int worker) {
   (void)worker;
   look_job *job = context;
-  const path_lesson *l = job->lesson;
   path_tracer one = *job->by;
   one.seed ^= OTHER_SEED;
   one.gain = &job->gains[item];
@@ -43,15 +42,9 @@ static void look(void *context, size_t item, int worker) {
   path_start starts[INTEGRATOR_BATCH];
   vec3 colors[INTEGRATOR_BATCH];
   path_stats stats = {0};
-  uint64_t pixels = (uint64_t)l->width * (uint64_t)l->height;
-  for (size_t i = 0; i < INTEGRATOR_BATCH; i++) {
-    uint64_t n = item * INTEGRATOR_BATCH + i;
-    uint64_t pixel = n * pixels / (LOOKS * INTEGRATOR_BATCH);
-    vec2 at = by.place(by.self, n, 0);
-    float x = (float)(pixel % (uint64_t)l->width) + at.x;
-    float y = (float)(pixel / (uint64_t)l->width) + at.y;
-    starts[i] = (path_start){camera_ray(l->view, x, y), n, 0};
-  }
+  for (size_t i = 0; i < INTEGRATOR_BATCH; i++)
+    starts[i] = path_lesson_start(job->lesson, &by, item * INTEGRATOR_BATCH + i,
+                                  LOOKS * INTEGRATOR_BATCH);
   by.radiance(by.self, starts, INTEGRATOR_BATCH, colors, &stats,
               job->rooms[item]);
   for (size_t i = 0; i < INTEGRATOR_BATCH; i++)

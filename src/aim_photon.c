@@ -109,7 +109,7 @@ static bool start(const flight_job *job, size_t i, flight *f) {
   *f = (flight){.numbers = rng_of(job->seed, i, 0)};
   rng *n = &f->numbers;
   float u = ((float)i + rng_next(n)) / (float)job->tries, share;
-  u = float_min(u, 0x1.fffffep-1f);
+  u = float_min(u, FLOAT_BELOW_1);
   uint32_t t = by->triangles[pick_at(&by->by_area, &u, &share)];
   hit at = {.b1 = rng_next(n), .b2 = rng_next(n), .triangle = t};
   if (at.b1 + at.b2 > 1) at.b1 = 1 - at.b1, at.b2 = 1 - at.b2;

@@ -3,10 +3,8 @@
 #include "light.h"
 
 #include "light_emission.h"
-#include "rng.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 // The share of choices that goes evenly to all kinds of light that there are:
 // nobody knows what is in between.
@@ -84,16 +82,6 @@ static shares shares_at(const light_set *l, const light_place *at) {
   return s;
 }
 
-// u.x with digits that a float has not, so that each of a million lights gets
-// its share: they are drawn from the digits of all three.
-static double finer(vec3 u) {
-  uint32_t bits[3];
-  memcpy(bits, &u, sizeof bits);
-  uint64_t z = rng_mix(((uint64_t)bits[0] << 32 | bits[1]) +
-                       bits[2] * UINT64_C(0x9e3779b97f4a7c15));
-  return (double)u.x + (double)(z >> 32) * 0x1p-56;
-}
-
 // Whom of the near lights to ask: an emitter or a part of one, and with what
 // probability.
 typedef struct asked {
@@ -110,7 +98,7 @@ static bool choose_near(const light_set *l, const light_place *at, double u,
     if (!light_tree_pick(&l->near, at, u, &i, &out->share)) return false;
   } else {
     uint32_t key = light_memory_key(l->memory, at->p, at->n);
-    float one = float_min((float)u, 0x1.fffffep-1f);
+    float one = float_min((float)u, FLOAT_BELOW_1);
     if (!light_memory_pick(l->memory, key, one, &i, &out->share)) return false;
     out->part = &l->memory->parts.of[i];
     i = out->part->emitter;
@@ -186,7 +174,7 @@ bool light_sample_at(const light_set *l, vec3 p, vec3 n, vec3 u,
                      light_sample *out) {
   light_place at = light_place_of(p, n);
   shares s = shares_at(l, &at);
-  double choice = finer(u);
+  double choice = light_finer(u);
   float share = s.near;
   bool found;
   *out = (light_sample){.part = LIGHT_NO_PART};

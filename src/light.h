@@ -6,7 +6,10 @@
 #include "light_env.h"
 #include "light_memory.h"
 #include "light_tree.h"
+#include "rng.h"
 #include "scene.h"
+
+#include <string.h>
 
 // A directional light.
 typedef struct light_far {
@@ -54,6 +57,16 @@ typedef struct light_sample {
 } light_sample;
 
 #define LIGHT_NO_PART UINT32_MAX
+
+// u.x with digits that a float has not, so that each of a million lights gets
+// its share: they are drawn from the digits of all three.
+static inline double light_finer(vec3 u) {
+  uint32_t bits[3];
+  memcpy(bits, &u, sizeof bits);
+  uint64_t z = rng_mix(((uint64_t)bits[0] << 32 | bits[1]) +
+                       bits[2] * UINT64_C(0x9e3779b97f4a7c15));
+  return (double)u.x + (double)(z >> 32) * 0x1p-56;
+}
 
 // Choose by u, three numbers of [0, 1): light, then direction.  n is the
 // normal of what is lit at p from the side of n only; zero when it lets light

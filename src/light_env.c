@@ -145,7 +145,7 @@ void light_env_build(light_env *out, const env *e, arena *mem, pool *threads) {
 // Where in [0, 1) a density falls that runs from a to b; not both 0.
 static float sample_slope(float a, float b, float u) {
   float t = u * (a + b) / (a + sqrtf(a * a * (1 - u) + b * b * u));
-  return float_min(t, 0x1.fffffep-1f);
+  return float_min(t, FLOAT_BELOW_1);
 }
 
 // Density per steradian at (x, y) of a cell, where its probability is known.

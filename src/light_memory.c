@@ -23,25 +23,14 @@ enum { NEAR = 3, SOME = GRID / NEAR, REGIONS = SOME * SOME * SOME * SIDES };
 // Where there are more cells than numbers for them, the rest learns nothing.
 enum { MOST_CELLS = 1 << 16 };
 
-static float axis_of(vec3 v, int axis) {
-  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 static uint32_t step_of(float x) {
   return x > 0 ? (uint32_t)float_min(x, GRID - 1) : 0;
-}
-
-// The axis that n runs along, and in which direction.
-static uint32_t side_of(vec3 n) {
-  vec3 a = vec3_abs(n);
-  int axis = a.x >= a.y ? (a.x >= a.z ? 0 : 2) : (a.y >= a.z ? 1 : 2);
-  return 2 * (uint32_t)axis + (axis_of(n, axis) < 0);
 }
 
 uint32_t light_memory_key(const light_memory *m, vec3 p, vec3 n) {
   vec3 at = vec3_scale(vec3_sub(p, m->lo), m->per_unit);
   uint32_t key = (step_of(at.z) * GRID + step_of(at.y)) * GRID + step_of(at.x);
-  return key * SIDES + side_of(n);
+  return key * SIDES + light_side(n);
 }
 
 static float power_of(const light_memory *m, uint32_t part) {

@@ -45,13 +45,23 @@ bool light_memory_new(light_memory *out, const light_tree *t, vec3 lo, vec3 hi,
 double light_memory_learn(light_memory *m, const light_record *records,
                           size_t n, arena *mem);
 
+// The axis that a normal runs along, twice, and 1 more where it runs down.
+static inline uint32_t light_side(vec3 n) {
+  vec3 a = vec3_abs(n);
+  int axis = a.x >= a.y ? (a.x >= a.z ? 0 : 2) : (a.y >= a.z ? 1 : 2);
+  return 2 * (uint32_t)axis + (vec3_axis(n, axis) < 0);
+}
+
 uint32_t light_memory_key(const light_memory *m, vec3 p, vec3 n);
 
-// Let what is known at a key come nearer, for a question soon.
-static inline void light_memory_fetch(const light_memory *m, uint32_t key) {
-  const light_cell *c = &m->cells[m->cell_of[key]];
+// Let a cell come nearer, for a question soon; or that of a key.
+static inline void light_cell_fetch(const light_cell *c) {
   __builtin_prefetch(c);
   __builtin_prefetch(c->last + LIGHT_PARTS_MOST / 2);
+}
+
+static inline void light_memory_fetch(const light_memory *m, uint32_t key) {
+  light_cell_fetch(&m->cells[m->cell_of[key]]);
 }
 
 // A part by u in [0, 1), with its probability, for a surface at p that faces

@@ -51,10 +51,6 @@ static float lot_cost(const lot *l) {
   return l->power * vec3_dot(d, d) * (4 - 3 * float_min(together, 1));
 }
 
-static float along(vec3 v, int axis) {
-  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
 static const light_emitter *emitter_at(const builder *b, uint32_t place) {
   return &b->emitters[b->order[place]];
 }
@@ -87,7 +83,7 @@ typedef struct cut {
 } cut;
 
 static int bin_of(const cut *c, const light_emitter *e) {
-  int bin = (int)((along(e->shape.middle, c->axis) - c->lo) * c->scale);
+  int bin = (int)((vec3_axis(e->shape.middle, c->axis) - c->lo) * c->scale);
   return bin < 0 ? 0 : bin < BINS ? bin : BINS - 1;
 }
 
@@ -118,7 +114,7 @@ static cut best_cut(const builder *b, const span *s) {
     middles = aabb_add(middles, emitter_at(b, s->first + i)->shape.middle);
   cut best = {.axis = -1, .cost = INFINITY};
   for (int axis = 0; axis < 3; axis++) {
-    float lo = along(middles.lo, axis), hi = along(middles.hi, axis);
+    float lo = vec3_axis(middles.lo, axis), hi = vec3_axis(middles.hi, axis);
     cut c = {.axis = axis, .lo = lo, .scale = BINS / (hi - lo)};
     if (c.scale > 0 && c.scale < INFINITY) try_axis(b, s, c, &best);
   }

@@ -7,22 +7,17 @@
 #include <string.h>
 
 // 1 / (2 pi).
-#define TURNS_PER_RADIAN 0.159154943f
 
 vec2 num_circle(float u) {
-  // r in [-1/8, 1/8] turns is exact: u and quarter / 4 are within a factor 2.
+  // The rest in [-1/8, 1/8] turns is exact: u and quarter / 4 are within a
+  // factor 2.
   float quarter = floorf(u * 4 + 0.5f);
-  float x = (u - quarter * 0.25f) * (2 * PI), x2 = x * x;
-  float s = x + x * x2 *
-                    (-1.0f / 6 +
-                     x2 * (1.0f / 120 + x2 * (-1.0f / 5040 + x2 / 362880)));
-  float c = 1 + x2 * (-0.5f + x2 * (1.0f / 24 +
-                                    x2 * (-1.0f / 720 + x2 * (1.0f / 40320))));
+  vec2 r = num_octant_circle((u - quarter * 0.25f) * (2 * PI));
   switch ((int)quarter & 3) {
-  case 0: return (vec2){c, s};
-  case 1: return (vec2){-s, c};
-  case 2: return (vec2){-c, -s};
-  default: return (vec2){s, -c};
+  case 0: return r;
+  case 1: return (vec2){-r.y, r.x};
+  case 2: return (vec2){-r.x, -r.y};
+  default: return (vec2){r.y, -r.x};
   }
 }
 
@@ -84,27 +79,11 @@ float num_pow(float x, float y) {
   return exp2_of_double((double)y * log2_in_double(x));
 }
 
-// atan(y / x) in turns for 0 <= y <= x, x > 0.  Above tan(pi / 8) the angle
-// from the diagonal is smaller; the series ends where the next term is below
-// 4e-9 turns.
-static float first_octant_turns(float y, float x) {
-  bool far = y > 0.41421356f * x;
-  float z = far ? (y - x) / (y + x) : y / x, z2 = z * z;
-  float tail =
-      z2 * (-1.0f / 3 +
-            z2 * (1.0f / 5 +
-                  z2 * (-1.0f / 7 +
-                        z2 * (1.0f / 9 + z2 * (-1.0f / 11 +
-                                               z2 * (1.0f / 13 - z2 / 15))))));
-  float angle = z + z * tail;
-  return (far ? 0.125f : 0) + angle * TURNS_PER_RADIAN;
-}
-
 float num_turns(float y, float x) {
   float ax = fabsf(x), ay = fabsf(y);
   if (!(ax > 0 || ay > 0)) return 0;
-  float t = ay <= ax ? first_octant_turns(ay, ax)
-                     : 0.25f - first_octant_turns(ax, ay);
+  float t =
+      ay <= ax ? num_octant_turns(ay, ax) : 0.25f - num_octant_turns(ax, ay);
   if (x < 0) t = 0.5f - t;
   if (y < 0) t = 1 - t;
   return t < 1 ? t : 0;

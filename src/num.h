@@ -10,6 +10,8 @@
 
 #include "vec.h"
 
+#define NUM_TURNS_PER_RADIAN 0.159154943f
+
 // cos and sin of 2 pi u for u in [0, 1].  Absolute error <= 1.2e-7.
 vec2 num_circle(float u);
 
@@ -23,5 +25,33 @@ float num_pow(float x, float y);
 // [0, 1] for x clamped to [-1, 1].  Absolute error <= 2e-7.
 float num_turns(float y, float x);
 float num_acos_pi(float x);
+
+// What these do once they know the octant, without branches, so that many can
+// be done at once.  The first: cos and sin of x in [-pi / 4, pi / 4].
+static inline vec2 num_octant_circle(float x) {
+  float x2 = x * x;
+  float s = x + x * x2 *
+                    (-1.0f / 6 +
+                     x2 * (1.0f / 120 + x2 * (-1.0f / 5040 + x2 / 362880)));
+  float c = 1 + x2 * (-0.5f + x2 * (1.0f / 24 +
+                                    x2 * (-1.0f / 720 + x2 * (1.0f / 40320))));
+  return (vec2){c, s};
+}
+
+// atan(y / x) in turns for 0 <= y <= x, x > 0.  Above tan(pi / 8) the angle
+// from the diagonal is smaller; the series ends where the next term is below
+// 4e-9 turns.
+static inline float num_octant_turns(float y, float x) {
+  int far = y > 0.41421356f * x;
+  float z = (far ? y - x : y) / (far ? y + x : x), z2 = z * z;
+  float tail =
+      z2 * (-1.0f / 3 +
+            z2 * (1.0f / 5 +
+                  z2 * (-1.0f / 7 +
+                        z2 * (1.0f / 9 + z2 * (-1.0f / 11 +
+                                               z2 * (1.0f / 13 - z2 / 15))))));
+  float angle = z + z * tail;
+  return (far ? 0.125f : 0) + angle * NUM_TURNS_PER_RADIAN;
+}
 
 #endif

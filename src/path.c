@@ -61,11 +61,9 @@ typedef struct wave {
 } wave;
 
 // The weight of a sample of density a where the other way to find it has
-// density b.  Source: Veach 1997, section 9.2.4, the power heuristic.
+// density b.
 static float power_weight(float a, float b) {
-  if (!(b > 0)) return 1;
-  float r = b / a;
-  return 1 / (1 + r * r);
+  return b > 0 ? path_weight(b / a) : 1;
 }
 
 static void add(path *p, float weight, vec3 radiance) {

@@ -31,11 +31,6 @@ struct path_aims {
   double *gain;
 };
 
-// The power heuristic for densities whose ratio is given.
-static float weight_beside(float rival) {
-  return 1 / (1 + rival * rival);
-}
-
 void path_trail_turn(path_trail *t, float pdf, const ray *r, uint32_t rays) {
   t->rival = 0;
   if (t->cell == NULL || rays != t->rays + 1) return;
@@ -43,7 +38,7 @@ void path_trail_turn(path_trail *t, float pdf, const ray *r, uint32_t rays) {
 }
 
 float path_trail_weight(const path_trail *t, uint32_t rays) {
-  return rays - t->rays <= LONGEST ? weight_beside(t->rival) : 1;
+  return rays - t->rays <= LONGEST ? path_weight(t->rival) : 1;
 }
 
 path_aims *path_aims_room(arena *mem) {
@@ -101,8 +96,8 @@ path_trail path_aims_ask(path_aims *a, const path_stand *s, uint32_t rays) {
 
 static void find(path_aims *a, const way *w, vec3 radiance) {
   vec3 *sum = &a->found[w->path];
-  *sum = vec3_mad(*sum, weight_beside(w->rival),
-                  vec3_mul(w->throughput, radiance));
+  *sum =
+      vec3_mad(*sum, path_weight(w->rival), vec3_mul(w->throughput, radiance));
 }
 
 // On from a mirror or glass; false where the way ends, as it does anywhere

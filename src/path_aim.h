@@ -9,6 +9,12 @@
 #include "sampler.h"
 #include "vertex.h"
 
+// The weight of a sample where the other way to find it has so many times the
+// density.  Source: Veach 1997, section 9.2.4, the power heuristic.
+static inline float path_weight(float rival) {
+  return 1 / (1 + rival * rival);
+}
+
 // Where a path last was on a surface that is no mirror, and how it could have
 // come from there to what it finds by mirrors and glass alone.
 typedef struct path_trail {

@@ -28,12 +28,10 @@ typedef struct school_job {
   size_t paths, from, to;  // all of them; those of this lesson
 } school_job;
 
-// Path i starts at one of the pixels, all of them in order.
-static path_start start_of(const school_job *job, const integrator *by,
-                           size_t i) {
-  const path_lesson *l = job->lesson;
+path_start path_lesson_start(const path_lesson *l, const integrator *by,
+                             uint64_t i, uint64_t paths) {
   uint64_t pixels = (uint64_t)l->width * (uint64_t)l->height;
-  uint64_t pixel = (uint64_t)i * pixels / job->paths;
+  uint64_t pixel = i * pixels / paths;
   vec2 at = by->place(by->self, i, 0);
   float x = (float)(pixel % (uint64_t)l->width) + at.x;
   float y = (float)(pixel / (uint64_t)l->width) + at.y;
@@ -52,7 +50,7 @@ static void walk(void *context, size_t item, int worker) {
   size_t first = job->from + item * INTEGRATOR_BATCH, n = job->to - first;
   if (n > INTEGRATOR_BATCH) n = INTEGRATOR_BATCH;
   for (size_t i = 0; i < n; i++)
-    starts[i] = start_of(job, &by, first + i);
+    starts[i] = path_lesson_start(job->lesson, &by, first + i, job->paths);
   by.radiance(by.self, starts, n, colors, &stats, job->rooms[worker]);
 }
 

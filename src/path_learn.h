@@ -12,6 +12,11 @@ typedef struct path_lesson {
   int width, height;
 } path_lesson;
 
+// Where path i of so many starts: they are spread evenly over the pixels, in
+// order.
+path_start path_lesson_start(const path_lesson *l, const integrator *by,
+                             uint64_t i, uint64_t paths);
+
 // Give lights, which by->lights must be, a memory, in mem, if that pays.  It is
 // a function of the scene, the lesson and the seed, but not of the number of
 // samples: whoever takes more of them, or a share, knows the same.

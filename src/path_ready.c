@@ -2,9 +2,6 @@
 
 #include "path_ready.h"
 
-// The greatest float below 1.
-#define BELOW_1 0x1.fffffep-1f
-
 // Memory of lights is large, and each vertex asks elsewhere: fetch what n of
 // them will ask for, all at once.
 static void fetch_memory(const light_set *l, const vertex *at, size_t n) {
@@ -47,7 +44,7 @@ static float turned(float u, float by) {
 stop path_ready_turn(const stop *s, uint32_t i, uint32_t turns) {
   stop t = *s;
   float n = (float)i;
-  t.u[USE_PICK] = float_min((n + s->u[USE_PICK]) / (float)turns, BELOW_1);
+  t.u[USE_PICK] = float_min((n + s->u[USE_PICK]) / (float)turns, FLOAT_BELOW_1);
   t.u[USE_LIGHT] = turned(s->u[USE_LIGHT], 0.7548777f * n);
   t.u[USE_LIGHT + 1] = turned(s->u[USE_LIGHT + 1], 0.5698403f * n);
   return t;

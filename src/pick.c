@@ -2,6 +2,8 @@
 
 #include "pick.h"
 
+#include "scalar.h"
+
 // Numbers that share an entry of the guide, on average.
 enum { PICK_STRIDE = 4 };
 
@@ -57,7 +59,7 @@ uint32_t pick_at(const pick *p, float *u, float *share) {
   }
   float units = (float)(p->upto[lo + 1] - p->upto[lo]);
   float rest = (at - (float)p->upto[lo]) / units;
-  *u = rest < 0x1.fffffep-1f ? rest : 0x1.fffffep-1f;
+  *u = rest < FLOAT_BELOW_1 ? rest : FLOAT_BELOW_1;
   *share = units / (float)PICK_UNITS;
   return lo;
 }

@@ -30,11 +30,8 @@ static inline void ready_keys(ready_work *w, const light_memory *m) {
 static inline void ready_fetch(ready_work *w, const light_memory *m) {
   for (int i = 0; i < LANES; i++)
     w->cell[i] = m->cell_of[w->cell[i]];
-  for (int i = 0; i < LANES; i++) {
-    const light_cell *c = &m->cells[w->cell[i]];
-    __builtin_prefetch(c);
-    __builtin_prefetch(c->last + LIGHT_PARTS_MOST / 2);
-  }
+  for (int i = 0; i < LANES; i++)
+    light_cell_fetch(&m->cells[w->cell[i]]);
 }
 
 #endif

@@ -5,20 +5,6 @@
 
 #include "ready_keys.h"
 #include "ready_leaf.h"
-#include "rng.h"
-
-#include <string.h>
-
-// finer of light.c.
-static inline double lane_finer(float u, float v, float t) {
-  uint32_t a, b, c;
-  memcpy(&a, &u, sizeof a);
-  memcpy(&b, &v, sizeof b);
-  memcpy(&c, &t, sizeof c);
-  uint64_t z =
-      rng_mix(((uint64_t)a << 32 | b) + c * UINT64_C(0x9e3779b97f4a7c15));
-  return (double)u + (double)(z >> 32) * 0x1p-56;
-}
 
 // How many parts end before a unit, by halves.
 static inline uint32_t lane_part(const light_cell *c, uint16_t unit) {
@@ -49,7 +35,7 @@ static inline void lane_ask(ready_light *to, int i, const light_triangle *t) {
 static inline void lane_remember(ready_work *w, int i, const light_memory *m,
                                  double u) {
   const light_cell *c = &m->cells[w->cell[i]];
-  float one = float_min((float)u, 0x1.fffffep-1f);
+  float one = float_min((float)u, FLOAT_BELOW_1);
   uint32_t part = lane_part(c, (uint16_t)(one * LIGHT_UNITS));
   int32_t found = (part < m->parts.count) & (u < 1) & w->r.matt[i];
   part &= 0 - (uint32_t)found;
@@ -80,8 +66,8 @@ static inline void lane_weigh(ready_work *w, int i, const light_tree *t,
 static inline void ready_pick(ready_work *w, const light_set *l) {
   double choice[LANES];
   for (int i = 0; i < LANES; i++)
-    choice[i] = lane_finer(w->r.u[USE_PICK][i], w->r.u[USE_LIGHT][i],
-                           w->r.u[USE_LIGHT + 1][i]);
+    choice[i] = light_finer((vec3){w->r.u[USE_PICK][i], w->r.u[USE_LIGHT][i],
+                                   w->r.u[USE_LIGHT + 1][i]});
   for (int i = 0; i < LANES && l->memory != NULL; i++)
     lane_remember(w, i, l->memory, choice[i]);
   if (l->memory != NULL) return;

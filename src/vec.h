@@ -100,6 +100,11 @@ static inline vec3 vec3_abs(vec3 a) {
   return (vec3){fabsf(a.x), fabsf(a.y), fabsf(a.z)};
 }
 
+// Component 0, 1 or 2.
+static inline float vec3_axis(vec3 a, int axis) {
+  return axis == 0 ? a.x : axis == 1 ? a.y : a.z;
+}
+
 // The largest component.
 static inline float vec3_peak(vec3 a) {
   return float_max(a.x, float_max(a.y, a.z));

@@ -1,8 +1,8 @@
 #!/bin/sh
 # sanitize.sh BUILD... — all unit tests, shortened, and the scripts that run
 # threads and files, by builds under sanitizers; the table of hostile files by
-# the one that sees memory; then a picture under valgrind.  Prints a line each with its seconds, what
-# failed, and a count; exit status 1 when there is one.
+# the one that sees memory; then a picture under valgrind.  Prints a line each
+# with its seconds, what failed, and a count; exit status 1 when something did.
 bad=0 good=0
 here=$(pwd)
 export FACET_QUICK=1

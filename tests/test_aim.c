@@ -141,8 +141,8 @@ static void mirrored_lamps_shine(void **state) {
   aim_cell nonsense[1] = {some_cell()};
   nonsense[0].x[2] = 1.3f;
   nonsense[0].y[2] = 2.1f;
-  aim_node nodes[AIM_SIDES];
-  for (int i = 0; i < AIM_SIDES; i++)
+  aim_node nodes[LIGHT_SIDES];
+  for (int i = 0; i < LIGHT_SIDES; i++)
     nodes[i] = (aim_node){0, AIM_LEAF, 0};
   static const float KEEN[] = {0.3f, 1, 3.7f, 100};
   for (int i = 0; i < 4; i++) {
