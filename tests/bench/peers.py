@@ -7,7 +7,9 @@ Needs `pip install mitsuba numpy`, and an LLVM of 17 or later for the fast
 variant (libllvm19).  Prints, for balls, lump, room and cornell-balls, the
 median seconds to render and relMSE = mean((x - ref)^2 / (ref^2 + 0.01)) of
 both at each number of samples, and then the seconds to each error, between
-the measured points.  With --z-test instead: do both converge to the same
+the measured points.  With --whole these are seconds of whole processes, from
+reading files to a file written, where what both keep on disk for their next
+run is there.  With --z-test instead: do both converge to the same
 picture?  Each renders with --parts seeds; their means' difference over its
 standard deviation, in every pixel and channel, passes where it is no less
 likely than 1 in 100 for the largest of as many (Sidak); 99.75 % have to.
@@ -122,8 +124,9 @@ def sky_of(path):
     return mi.Bitmap((1 - part) * rows[low] + part * rows[low + 1])
 
 
-def load_scene(path):
-    """The scene for Mitsuba, and its size."""
+def describe(path, shape):
+    """The scene for Mitsuba as a dictionary, and its size; shape makes one
+    object of a name, points, normals, faces and material."""
     said = {}
     for words in (line.split("#")[0].split() for line in open(path)):
         if words:
@@ -150,8 +153,34 @@ def load_scene(path):
         turn = mi.ScalarTransform4f().rotate([0, 1, 0], 180)
         scene["env"] = {"type": "envmap", "bitmap": sky_of(folder / env[0]), "to_world": turn}
     for i, (name, list_of) in enumerate(faces.items()):
-        scene["mesh_%d" % i] = mesh_of(name, points, normals, list_of, materials[name])
+        scene["mesh_%d" % i] = shape(name, points, normals, list_of, materials[name])
+    return scene, width, height
+
+
+def load_scene(path):
+    scene, width, height = describe(path, mesh_of)
     return mi.load_dict(scene), width, height
+
+
+def write_scene(path):
+    """A file beside path that Mitsuba's own program reads, with binary meshes."""
+    def shape(name, points, normals, faces, material):
+        file = str(path.with_suffix("")) + "-" + name + ".ply"
+        mesh_of(name, points, normals, faces, material).write_ply(file)
+        found = {"type": "ply", "filename": file, "bsdf": bsdf_of(material)}
+        if any(material.get("Ke", [0])):
+            found["emitter"] = {"type": "area", "radiance": rgb(material["Ke"])}
+        return found
+    scene = describe(path, shape)[0]
+    if "bitmap" in scene.get("env", {}):
+        sky = str(path.with_suffix("")) + "-sky.exr"
+        scene["env"].pop("bitmap").write(sky)
+        scene["env"]["filename"] = sky
+    scene["sensor"]["sampler"] = {"type": "independent", "sample_count": 1}
+    file = path.with_suffix(".xml")
+    state = mi.parser.parse_dict(mi.parser.ParserConfig(mi.variant()), scene)
+    mi.parser.write_file(state, str(file))
+    return file
 
 
 def read_pfm(path):
@@ -172,6 +201,36 @@ def by_facet(facet, path, spp, seed, out):
     said = subprocess.run([facet, "render", path, "--engine", "path", "--spp", str(spp), "--seed", str(seed),
                            "--max-depth", str(DEPTH), "-o", out, "-q", "--json"], check=True, capture_output=True)
     return read_pfm(out), json.loads(said.stdout)["seconds"]["render"]
+
+
+def seconds_of(command):
+    start = time.perf_counter()
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return time.perf_counter() - start
+
+
+def facet_whole(facet, path, spp, seed, out):
+    seconds = seconds_of([facet, "render", path, "--engine", "path", "--spp", str(spp), "--seed", str(seed),
+                          "--max-depth", str(DEPTH), "-q", "-o", out])
+    return read_pfm(out), seconds
+
+
+def mitsuba_whole(file, spp, out):
+    seconds = seconds_of(["mitsuba", "-m", mi.variant(), "-Dspp=%d" % spp, "-o", out, str(file)])
+    picture = mi.Bitmap(out).convert(mi.Bitmap.PixelFormat.RGB, mi.Struct.Type.Float32, False)
+    return np.array(picture, np.float64), seconds
+
+
+def competitors(path, scene, options):
+    """Who renders: names, and functions of samples and seed that give a picture
+    and seconds."""
+    out, exr = (str(options.folder / ("peers" + s)) for s in (".pfm", ".exr"))
+    if not options.whole:
+        return {"facet": lambda spp, seed: by_facet(options.facet, path, spp, seed, out),
+                "mitsuba": lambda spp, seed: by_mitsuba(scene, spp, seed)}
+    file = write_scene(path)
+    return {"facet": lambda spp, seed: facet_whole(options.facet, path, spp, seed, out),
+            "mitsuba": lambda spp, seed: mitsuba_whole(file, spp, exr)}
 
 
 def error_of(picture, reference):
@@ -200,15 +259,14 @@ def compare(name, options):
     path = options.folder / (name + ".scene")
     scene, width, height = load_scene(path)
     reference = reference_of(scene, options.folder, name, options.reference)
-    curve = {"facet": [], "mitsuba": []}
-    out = str(options.folder / "peers.pfm")
+    who_draws = competitors(path, scene, options)
+    curve = {who: [] for who in who_draws}
     for spp in options.spp:
-        by_mitsuba(scene, spp, 0)  # traced and compiled once, not counted
-        runs = {"facet": [], "mitsuba": []}
+        who_draws["mitsuba"](spp, 0)  # traced and compiled once, not counted
+        runs = {who: [] for who in who_draws}
         for k in range(options.repeat):
-            for who in runs:
-                picture, seconds = (by_facet(options.facet, path, spp, 100 + k, out) if who == "facet"
-                                    else by_mitsuba(scene, spp, 100 + k))
+            for who, draw in who_draws.items():
+                picture, seconds = draw(spp, 100 + k)
                 runs[who].append((seconds, error_of(picture, reference)))
         for who, rows in runs.items():
             seconds, error = (statistics.median(r[i] for r in rows) for i in range(2))
@@ -253,6 +311,7 @@ def main():
     parser.add_argument("--marks", default="0.1,0.03,0.01,0.003", type=numbers(float))
     parser.add_argument("--reference", default=2048, type=int)
     parser.add_argument("--z-test", action="store_true")
+    parser.add_argument("--whole", action="store_true")
     parser.add_argument("--parts", default=32, type=int)
     parser.add_argument("--theirs", type=int)
     parser.add_argument("--variant", default="llvm_ad_rgb")
