@@ -110,7 +110,9 @@ endif
 # Loops over lanes become vector instructions where nothing else is asked of
 # them: errno and traps.  Not where sanitizers watch, whose checks are in the way.
 ifndef SAN
-$(B)/src/ready_%.o: LOOPS := -O3 -fno-math-errno -fno-trapping-math
+QUICK_LOOPS := -O3 -fno-math-errno -fno-trapping-math
+$(B)/src/ready_%.o: LOOPS := $(QUICK_LOOPS)
+$(B)/src/two_means.o: LOOPS := $(QUICK_LOOPS)
 endif
 
 # The files of shaders/ as one table of names and texts (src/glsl.h).

@@ -165,7 +165,7 @@ static bool next_round(adaptive *a, const render_budget *b) {
     plan_first(a);
     return true;
   }
-  a->error = halves_error(&a->halves);
+  a->error = halves_error(&a->halves, NULL);
   bool known = a->error > 0 || a->tiles[0].taken[1] > 0;
   if (a->set.error > 0 && known && a->error <= a->set.error) return false;
   double g = growth(a, taken, b);
@@ -242,8 +242,8 @@ static void adaptive_spend(void *self, size_t tile, uint64_t rays) {
   ((adaptive *)self)->tiles[tile].rays += (double)rays;
 }
 
-static double adaptive_error(void *self) {
-  return halves_error(&((adaptive *)self)->halves);
+static double adaptive_error(void *self, pool *threads) {
+  return halves_error(&((adaptive *)self)->halves, threads);
 }
 
 static vec3 adaptive_mean(const void *self, size_t pixel) {

@@ -80,10 +80,10 @@ static double rate_of(double left, int k) {
   return (low + high) / 2;
 }
 
-static double doubling_error(void *self) {
+static double doubling_error(void *self, pool *threads) {
   const doubling *d = self;
   two_means t = {d->all.width, d->all.height, d, doubling_pixel};
-  two_means_sums s = two_means_measure(&t);
+  two_means_sums s = two_means_measure(&t, threads);
   uint32_t n = d->all.count[0], m = n > 0 ? power_below(n) : 0;
   if (!(s.other > 0) || m < 2) return 0;
   int k = 0;

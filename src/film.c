@@ -2,15 +2,22 @@
 
 #include "film.h"
 
+#include "pages.h"
+
 #include <float.h>
 #include <string.h>
 
+// All pages at once: a sum is read before it is written, which would interrupt
+// twice a page.
 film film_new(arena *mem, int width, int height, bool with_variance) {
   size_t n = (size_t)width * (size_t)height;
   film f = {.width = width, .height = height};
   f.sum = arena_alloc(mem, n, sizeof *f.sum);
   f.count = ARENA_NEW(mem, uint32_t, n);
   if (with_variance) f.square = arena_alloc(mem, n, sizeof *f.square);
+  pages_expect(f.sum, n * sizeof *f.sum);
+  pages_expect(f.count, n * sizeof *f.count);
+  if (with_variance) pages_expect(f.square, n * sizeof *f.square);
   return f;
 }
 
@@ -50,13 +57,13 @@ static double mean_variance(const film *f, size_t i, int c) {
   double n = (double)f->count[i];
   if (f->square == NULL || n < 2) return 0;
   double spread = f->square[i][c] - f->sum[i][c] * f->sum[i][c] / n;
-  return fmax(spread, 0) / (n - 1) / n;
+  return (spread > 0 ? spread : 0) / (n - 1) / n;
 }
 
 // The largest float for more than that: samples of 1e20 are floats, their
 // variance is not.
 static float bounded(double x) {
-  return (float)fmin(x, (double)FLT_MAX);
+  return x < (double)FLT_MAX ? (float)x : FLT_MAX;
 }
 
 vec3 film_variance(const film *f, size_t i) {

@@ -76,7 +76,7 @@ static bool halves_pixel(const void *self, size_t i, two_means_pixel *out) {
   return true;
 }
 
-double halves_error(const halves *h) {
+double halves_error(const halves *h, pool *threads) {
   two_means t = {h->half[0].width, h->half[0].height, h, halves_pixel};
-  return sqrt(two_means_measure(&t).square);
+  return sqrt(two_means_measure(&t, threads).square);
 }

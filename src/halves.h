@@ -31,6 +31,6 @@ vec3 halves_mean(const halves *h, size_t i);
 vec3 halves_variance(const halves *h, size_t i);
 
 // The relative error of the picture; 0 where no pixel has both means.
-double halves_error(const halves *h);
+double halves_error(const halves *h, pool *threads);
 
 #endif

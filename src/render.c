@@ -258,9 +258,9 @@ static bool plan_pass(job *j) {
   return all > 0;
 }
 
-static double error_so_far(const job *j) {
+static double error_so_far(const job *j, pool *threads) {
   const render_guide *g = j->set->guide;
-  if (g != NULL) return g->error(g->self);
+  if (g != NULL) return g->error(g->self, threads);
   return j->shard.count > 1 ? 0 : film_error(&j->sums.color);
 }
 
@@ -302,21 +302,31 @@ static void hand_snapshot(const job *j) {
   arena_free(&once);
 }
 
+// Whether somebody will hear of the error before the last pass.
+static bool error_is_heard(const job *j) {
+  const render_settings *s = j->set;
+  bool wanted = s->snapshot != NULL && *s->snapshot;
+  return s->error > 0 || s->progress != NULL || wanted;
+}
+
 static void render_passes(job *j, pool *threads) {
+  bool known = true;
   while (plan_pass(j)) {
     atomic_store(&j->done, 0);
     size_t runs = (size_t)((j->tile_count + j->run - 1) / j->run);
     pool_run(threads, runs, render_tiles, j);
-    j->error = error_so_far(j);
+    known = error_is_heard(j);
+    if (known) j->error = error_so_far(j, threads);
     keep_sums(j, false);
     hand_snapshot(j);
   }
+  if (!known) j->error = error_so_far(j, threads);
   keep_sums(j, true);
   if (j->set->progress != NULL) tell_progress(j, clock_seconds());
 }
 
 // Films for the sums, empty or with what is kept.
-static void ready_sums(job *j, arena *mem) {
+static void ready_sums(job *j, arena *mem, pool *threads) {
   const render_settings *s = j->set;
   bool squares = s->keep != NULL || (s->aovs & RENDER_AOV_VARIANCE) != 0 ||
                  (s->guide == NULL && (s->error > 0 || s->progress != NULL));
@@ -327,7 +337,7 @@ static void ready_sums(job *j, arena *mem) {
   j->first = j->sums.taken;
   j->end = (int)j->first;
   if (j->kept.samples == 0) return;
-  j->error = error_so_far(j);
+  j->error = error_so_far(j, threads);
   j->begun = share_done(j, j->start);
 }
 
@@ -360,7 +370,7 @@ void render_run(render_result *out, const path_world *world,
   j.workers = threads == NULL ? 1 : pool_threads(threads);
   choose_tiles(&j);
   j.team = hire_workers(&j, &scratch);
-  ready_sums(&j, &scratch);
+  ready_sums(&j, &scratch, threads);
   render_passes(&j, threads);
   *out = (render_result){.spp = spp_so_far(&j), .error = j.error};
   out->stopped = s->stop != NULL && *s->stop && out->spp < s->spp;

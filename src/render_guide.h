@@ -4,6 +4,7 @@
 #ifndef RENDER_GUIDE_H
 #define RENDER_GUIDE_H
 
+#include "pool.h"
 #include "shard.h"
 
 #include <stddef.h>
@@ -32,8 +33,9 @@ typedef struct render_guide {
   void (*add)(void *self, size_t pixel, uint32_t sample, vec3 color);
   // Told after a pass how many rays the tile's paths took.
   void (*spend)(void *self, size_t tile, uint64_t rays);
-  // The picture's relative error so far; 0: not known.
-  double (*error)(void *self);
+  // The picture's relative error so far; 0: not known.  No other call is under
+  // way.
+  double (*error)(void *self, pool *threads);
   vec3 (*mean)(const void *self, size_t pixel);
   vec3 (*variance)(const void *self, size_t pixel);
 } render_guide;

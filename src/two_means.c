@@ -6,58 +6,96 @@
 #include "two_means.h"
 
 #include <math.h>
+#include <string.h>
 
 // Pixels a side of a block whose other pixels say what to expect of one.
 enum { BLOCK = 4, BLOCK_PIXELS = BLOCK * BLOCK };
 
+// Numbers of a block's pixels in a ring: the first of them again behind the
+// last, so that what follows a pixel are all others.
+typedef struct ring {
+  double at[2 * BLOCK_PIXELS];
+} ring;
+
 // One channel of a block.
 typedef struct block {
   int count;
-  double mean[BLOCK_PIXELS], least[BLOCK_PIXELS];  // of the two
-  double square[BLOCK_PIXELS], other[BLOCK_PIXELS];
+  ring mean, mean2, square;  // of the two means; ((a - b) / 2)^2
+  double least[BLOCK_PIXELS], other[BLOCK_PIXELS];
 } block;
 
-// Radiance squared at pixel k, as the pixel and its neighbours let expect: the
-// neighbours have a mean, vary around it by themselves (spread), and all are
-// uncertain.  The less certain the pixel is, the more its neighbours count.
+// Of the others of each pixel.
+typedef struct others {
+  double sum[BLOCK_PIXELS], sum2[BLOCK_PIXELS], noise[BLOCK_PIXELS];
+} others;
+
+static double more(double a, double b) {
+  return a > b ? a : b;
+}
+
+// All pixels at once, one step around the ring after the other.
+static void ask_others(const block *b, others *out) {
+  others o = {{0}, {0}, {0}};
+  for (int i = 1; i < b->count; i++)
+    for (int k = 0; k < BLOCK_PIXELS; k++) {
+      o.sum[k] += b->mean.at[i + k];
+      o.sum2[k] += b->mean2.at[i + k];
+      o.noise[k] += b->square.at[i + k];
+    }
+  *out = o;
+}
+
+// Radiance squared, as a pixel and its neighbours let expect: the neighbours
+// have a mean, vary around it by themselves (spread), and all are uncertain.
+// The less certain the pixel is, the more its neighbours count.  All pixels at
+// once, those that are not there too.
 // Source: James and Stein, 1961.
-static double expected_square(const block *b, int k) {
-  double sum = 0, sum2 = 0, noise = 0, n = (double)b->count - 1;
-  if (n < 2) return fmax(b->mean[k] * b->mean[k] - b->square[k], 0);
-  for (int i = 0; i < b->count; i++) {
-    if (i == k) continue;
-    sum += b->mean[i];
-    sum2 += b->mean[i] * b->mean[i];
-    noise += b->square[i];
+static void expect_squares(const block *b, const others *o, double *out) {
+  double n = (double)b->count - 1;
+  for (int k = 0; k < BLOCK_PIXELS; k++) {
+    double mean = b->mean.at[k], square = b->square.at[k];
+    double around = o->sum[k] / n, noise = o->noise[k] / n;
+    double vary = (o->sum2[k] - o->sum[k] * around) / (n - 1);
+    double spread = more(vary - noise, 0);
+    double all = spread + more(noise, square);
+    double trust = spread / (all > 0 ? all : 1);
+    double likely = around + trust * (mean - around);
+    // Half of what the square of an uncertain number exceeds the square of its
+    // mean by, because it is to be divided by.
+    double expected = likely * likely + (1 - trust) * spread / 2;
+    // A lamp among dark neighbours: both means see it, as no accident would.
+    double sure = more(b->least[k] - 2 * sqrt(noise), 0);
+    out[k] = more(expected, sure * sure);
   }
-  double around = sum / n;
-  noise /= n;
-  double spread = fmax((sum2 - sum * around) / (n - 1) - noise, 0);
-  double own = fmax(noise, b->square[k]);
-  double trust = spread > 0 ? spread / (spread + own) : 0;
-  double likely = around + trust * (b->mean[k] - around);
-  // Half of what the square of an uncertain number exceeds the square of its
-  // mean by, because it is to be divided by.
-  double square = likely * likely + (1 - trust) * spread / 2;
-  // A lamp among dark neighbours: both means see it, as no accident would.
-  double sure = fmax(b->least[k] - 2 * sqrt(noise), 0);
-  return fmax(square, sure * sure);
 }
 
 static void add_block(const block *b, two_means_sums *sums) {
+  double expected[BLOCK_PIXELS];
+  others o;
+  ask_others(b, &o);
+  if (b->count > 2)
+    expect_squares(b, &o, expected);
+  else
+    for (int k = 0; k < b->count; k++)
+      expected[k] = more(b->mean2.at[k] - b->square.at[k], 0);
   for (int k = 0; k < b->count; k++) {
-    double share = 1 / (expected_square(b, k) + 0.01);
-    sums->square += share * b->square[k];
+    double share = 1 / (expected[k] + 0.01);
+    sums->square += share * b->square.at[k];
     sums->other += share * b->other[k];
   }
 }
 
 static void put(block *b, const two_means_pixel *p, int channel) {
-  double x = p->a[channel], y = p->b[channel];
-  b->mean[b->count] = (x + y) / 2;
-  b->least[b->count] = fmin(x, y);
-  b->square[b->count] = (x - y) * (x - y) / 4;
+  double x = p->a[channel], y = p->b[channel], mean = (x + y) / 2;
+  b->mean.at[b->count] = mean;
+  b->mean2.at[b->count] = mean * mean;
+  b->square.at[b->count] = (x - y) * (x - y) / 4;
+  b->least[b->count] = x < y ? x : y;
   b->other[b->count++] = p->other[channel];
+}
+
+static void close_ring(ring *r, int count) {
+  memcpy(r->at + count, r->at, (size_t)count * sizeof *r->at);
 }
 
 // The three channels of the block that starts at (x0, y0); returns its pixels.
@@ -72,17 +110,47 @@ static int measure_block(const two_means *t, int x0, int y0,
       for (int c = 0; c < 3; c++)
         put(&b[c], &p, c);
     }
-  for (int c = 0; c < 3; c++)
+  for (int c = 0; c < 3; c++) {
+    close_ring(&b[c].mean, b[c].count);
+    close_ring(&b[c].mean2, b[c].count);
+    close_ring(&b[c].square, b[c].count);
     add_block(&b[c], sums);
+  }
   return b[0].count;
 }
 
-two_means_sums two_means_measure(const two_means *t) {
+// A row of blocks, the item of work of a thread.
+typedef struct block_row {
+  two_means_sums sums;
+  double pixels;
+} block_row;
+
+typedef struct measuring {
+  const two_means *of;
+  block_row *rows;
+} measuring;
+
+static void measure_row(void *context, size_t item, int worker) {
+  const measuring *m = context;
+  block_row *row = &m->rows[item];
+  for (int x = 0; x < m->of->width; x += BLOCK)
+    row->pixels += measure_block(m->of, x, BLOCK * (int)item, &row->sums);
+  (void)worker;
+}
+
+two_means_sums two_means_measure(const two_means *t, pool *threads) {
+  arena scratch = {0};
+  size_t rows = (size_t)((t->height + BLOCK - 1) / BLOCK);
+  measuring m = {t, ARENA_NEW(&scratch, block_row, rows)};
+  pool_run(threads, rows, measure_row, &m);
   two_means_sums sums = {0, 0};
   double pixels = 0;
-  for (int y = 0; y < t->height; y += BLOCK)
-    for (int x = 0; x < t->width; x += BLOCK)
-      pixels += measure_block(t, x, y, &sums);
+  for (size_t i = 0; i < rows; i++) {
+    sums.square += m.rows[i].sums.square;
+    sums.other += m.rows[i].sums.other;
+    pixels += m.rows[i].pixels;
+  }
+  arena_free(&scratch);
   if (!(pixels > 0)) return sums;
   return (two_means_sums){sums.square / (3 * pixels),
                           sums.other / (3 * pixels)};

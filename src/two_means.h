@@ -4,6 +4,8 @@
 #ifndef TWO_MEANS_H
 #define TWO_MEANS_H
 
+#include "pool.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -28,6 +30,6 @@ typedef struct two_means_sums {
 } two_means_sums;
 
 // Both 0 when no pixel has two means.
-two_means_sums two_means_measure(const two_means *t);
+two_means_sums two_means_measure(const two_means *t, pool *threads);
 
 #endif

@@ -101,7 +101,7 @@ static void the_error_is_the_error(void **state) {
       follow(&g, k % 2 ? SAMPLER_RANDOM : SAMPLER_SOBOL, (uint64_t)seed, OFTEN,
              &all);
       image im = picture_of(&g, &mem);
-      double said = g.error(g.self), is = true_error(&im);
+      double said = g.error(g.self, NULL), is = true_error(&im);
       assert_true(said <= goal);
       assert_true(fabs(is / said - 1) < 0.2);
       within += fabs(is / said - 1) < 0.1;
@@ -226,7 +226,7 @@ static void doubling_sees_evenness(void **state) {
       double share = (0.8 + 0.1) / 2 / 0.45;
       for (size_t i = 0; i < PIXELS; i++)
         im.pixels[i] = vec3_scale(im.pixels[i], (float)(1 / share));
-      double is = true_error(&im) * share, said = g.error(g.self);
+      double is = true_error(&im) * share, said = g.error(g.self, NULL);
       double spread = film_error(&f);
       print_message("# %s %u: true %.4f, doubling %.4f, variance %.4f\n",
                     k ? "random" : "Sobol'", n, is, said, spread);
@@ -249,11 +249,95 @@ static void dark_and_noisy(void **state) {
     render_guide g = adaptive_guide(adaptive_new(&set, &mem));
     follow(&g, SAMPLER_RANDOM, 50 + (uint64_t)seed, OFTEN, &all);
     image im = picture_of(&g, &mem);
-    sum += g.error(g.self) / true_error(&im);
+    sum += g.error(g.self, NULL) / true_error(&im);
     arena_free(&mem);
   }
   print_message("# 32 samples: printed / true %.3f\n", sum / (double)seeds);
   assert_true(fabs(sum / (double)seeds - 1) < 0.1);
+}
+
+// Two means, one of which is wrong here and there; some pixels have none.
+enum { RING_WIDTH = 23, RING_HEIGHT = 10 };
+
+static bool two_pixels(const void *self, size_t i, two_means_pixel *out) {
+  (void)self;
+  rng r = rng_of(7, i, 0);
+  for (int c = 0; c < 3; c++) {
+    out->a[c] = truth(i) * (double)rng_next(&r);
+    out->b[c] = truth(i) * (double)rng_next(&r);
+    out->other[c] = (double)rng_next(&r);
+    if (rng_next(&r) < 0.05f) out->a[c] += 1000;
+  }
+  return i % 7 != 3;
+}
+
+// The mean of f of the other pixels of the block of pixel i; their number.
+static int of_others(double *mean, size_t i, int channel,
+                     double (*f)(double a, double b)) {
+  size_t x = i % RING_WIDTH / 4 * 4, y = i / RING_WIDTH / 4 * 4;
+  int n = 0;
+  *mean = 0;
+  for (size_t v = y; v < y + 4 && v < RING_HEIGHT; v++)
+    for (size_t u = x; u < x + 4 && u < RING_WIDTH; u++) {
+      two_means_pixel p;
+      size_t at = v * RING_WIDTH + u;
+      if (at == i || !two_pixels(NULL, at, &p)) continue;
+      *mean += f(p.a[channel], p.b[channel]);
+      n++;
+    }
+  *mean /= n > 0 ? n : 1;
+  return n;
+}
+
+static double middle(double a, double b) {
+  return (a + b) / 2;
+}
+
+static double square(double a, double b) {
+  return middle(a, b) * middle(a, b);
+}
+
+static double apart(double a, double b) {
+  return (a - b) * (a - b) / 4;
+}
+
+// The share of pixel i, written down as the book has it.
+static double share_of(size_t i, int c, const two_means_pixel *p) {
+  double mu, squares, noise, m = middle(p->a[c], p->b[c]);
+  double own = apart(p->a[c], p->b[c]);
+  int n = of_others(&mu, i, c, middle);
+  of_others(&squares, i, c, square);
+  of_others(&noise, i, c, apart);
+  if (n < 2) return 1 / (fmax(m * m - own, 0) + 0.01);
+  double tau2 = fmax((squares - mu * mu) * n / (n - 1) - noise, 0);
+  double sigma2 = fmax(noise, own);
+  double trust = tau2 > 0 ? tau2 / (tau2 + sigma2) : 0;
+  double likely = mu + trust * (m - mu);
+  double sure = fmax(fmin(p->a[c], p->b[c]) - 2 * sqrt(noise), 0);
+  double expected = likely * likely + (1 - trust) * tau2 / 2;
+  return 1 / (fmax(expected, sure * sure) + 0.01);
+}
+
+// All pixels of a block at once are those one by one, for any threads.
+static void a_ring_is_a_block(void **state) {
+  (void)state;
+  arena mem = {0};
+  two_means t = {RING_WIDTH, RING_HEIGHT, NULL, two_pixels};
+  two_means_sums is = {0, 0}, alone = two_means_measure(&t, NULL);
+  two_means_pixel p;
+  double n = 0;
+  for (size_t i = 0; i < RING_WIDTH * RING_HEIGHT; i++)
+    for (int c = 0; c < 3 && two_pixels(NULL, i, &p); c++, n++) {
+      is.square += share_of(i, c, &p) * apart(p.a[c], p.b[c]);
+      is.other += share_of(i, c, &p) * p.other[c];
+    }
+  assert_true(fabs(alone.square * n / is.square - 1) < 1e-9);
+  assert_true(fabs(alone.other * n / is.other - 1) < 1e-9);
+  pool *all = pool_new(&mem, 3);
+  two_means_sums three = two_means_measure(&t, all);
+  assert_true(three.square == alone.square && three.other == alone.other);
+  pool_free(all);
+  arena_free(&mem);
 }
 
 // What a walker is asked for through halves: each half its own pixel, and the
@@ -309,6 +393,7 @@ int main(void) {
       cmocka_unit_test(limits_hold),
       cmocka_unit_test(doubling_sees_evenness),
       cmocka_unit_test(dark_and_noisy),
+      cmocka_unit_test(a_ring_is_a_block),
       cmocka_unit_test(each_half_its_own),
   };
   return cmocka_run_group_tests_name("error", tests, NULL, NULL);

@@ -104,8 +104,8 @@ static void draw_estimates(output *o) {
     double whole = edge_error(mean_of_film, &f);
     x[k] = n;
     y[0][k] = film_error(&f) / whole;
-    y[1][k] = d.error(d.self) / whole;
-    y[2][k] = halves_error(&h) / edge_error(mean_of_halves, &h);
+    y[1][k] = d.error(d.self, NULL) / whole;
+    y[2][k] = halves_error(&h, NULL) / edge_error(mean_of_halves, &h);
     printf("%4u samples: variance %.3f, doubling %.3f, halves %.3f of the true "
            "error\n",
            n, y[0][k], y[1][k], y[2][k]);
