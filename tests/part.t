@@ -105,7 +105,7 @@ exits 1 "another shard twice does not fill it" merge t1.part t3.part t1.part -o 
 says "t1.part: 5 of its 5 tiles are in t1.part, too" "and is named, too"
 says "of shard 2/3 are missing" "with the hole"
 "$facet" render a.scene --engine path -q --spp 9000000 --shard 2/3 -o t2.part &
-sleep 0.7
+renders $!
 kill -TERM $!
 ends $! 75 "a stopped shard exits with 75"
 ok "and leaves what it has" test -s t2.part
@@ -271,7 +271,7 @@ start() { env --default-signal=INT "$facet" render a.scene --engine path -q --sp
 for signal in INT TERM; do
   rm -f c.part
   start --checkpoint c.part -o $signal.png
-  sleep 0.6
+  renders $pid
   kill -$signal $pid
   ends $pid 75 "SIG$signal: exit 75"
   ok "with a checkpoint instead of a picture" test -s c.part -a ! -e $signal.png
@@ -280,18 +280,16 @@ exits 1 "that is no picture yet" merge c.part -o x.png
 says "c.part: is not finished" "says why"
 cp c.part before.part
 start --checkpoint c.part --resume -o x.png
-sleep 0.5
+renders $pid
 kill -USR1 $pid
-for _ in 1 2 3 4 5 6 7 8 9 10; do [ -e x.png ] || sleep 0.3; done
+for _ in $(seq 50); do [ -e x.png ] || sleep 0.3; done
 ok "SIGUSR1: the picture so far" test -s x.png
 kill -9 $pid
 ends $pid 137 "and on it went"
 ok "with the checkpoint of before, until another is due" cmp c.part before.part
 start -r 3000x2000 --checkpoint twice.part -o twice.png
-sleep 0.6
-kill -INT $pid
-sleep 0.1
-kill -TERM $pid
+renders $pid
+stop_twice $pid
 ends $pid 143 "a second signal ends it at once"
 ok "with neither picture nor checkpoint" test ! -e twice.png -a ! -e twice.part
 rm -f .twice.part*

@@ -142,7 +142,7 @@ E
 
 # Stop rules.
 ok "--time ends in time" sh -c "
-  '$facet' render -q $path a.obj -r 320x200 --time 1 --json -o time.png | python3 -c '
+  '$facet' render -q $path a.obj -r 64x40 --time 1 --json -o time.png | python3 -c '
 import json, sys
 j = json.load(sys.stdin)
 assert 0.3 < j[\"seconds\"][\"total\"] < 1.3 and j[\"spp\"] > 1, j'"
@@ -206,7 +206,7 @@ out_of_memory 500000 "no memory" "$facet" render $path a.obj -j 1 -r 40000x40000
 start() { env --default-signal=INT "$facet" render $path a.obj -q "$@" 2>"$T/err" & pid=$!; }
 for signal in INT TERM; do
   start -r 160x100 --time 20 -o $signal.png
-  sleep 0.7
+  renders $pid
   kill -$signal $pid
   wait $pid
   code=$?
@@ -215,18 +215,16 @@ for signal in INT TERM; do
   else fail "SIG$signal: exit $code"; fi
 done
 start -r 3000x3000 --time 20 -o twice.png
-sleep 0.6
-kill -INT $pid
-sleep 0.1
-kill -TERM $pid
+renders $pid
+stop_twice $pid
 wait $pid
 code=$?
 if [ $code = 143 ] && [ ! -e twice.png ]; then pass "a second signal ends it at once"
 else fail "a second signal: exit $code"; fi
 start -r 160x100 --time 20 -o usr1.png
-sleep 0.3
+renders $pid
 kill -USR1 $pid
-for _ in 1 2 3 4 5 6 7 8 9 10; do [ -e usr1.png ] || sleep 0.3; done
+for _ in $(seq 50); do [ -e usr1.png ] || sleep 0.3; done
 if [ -e usr1.png ] && kill -0 $pid; then pass "SIGUSR1: the picture so far, and on it goes"
 else fail "SIGUSR1"; fi
 kill -TERM $pid

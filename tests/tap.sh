@@ -49,6 +49,28 @@ out_of_memory() {
   exits 5 "$title" sh -c "ulimit -v $kb; exec \"\$@\"" - "$@"
   says "out of memory" "is said"
 }
+# signals PID FIELD: those signals of a process, as a number.
+signals() {
+  bits=$(sed -n "s/^$2:[^0-9a-f]*/0x/p" "/proc/$1/status")
+  echo $((${bits:-0}))
+}
+# renders PID: wait until a render has begun, which catches SIGTERM then; and
+# SIGUSR1 before, as no shell of ours does.
+renders() {
+  for _ in $(seq 300); do
+    [ $(($(signals "$1" SigCgt) & 0x4200)) = $((0x4200)) ] && return
+    sleep 0.1
+  done
+}
+# stop_twice PID: SIGINT, and SIGTERM when that has arrived.
+stop_twice() {
+  kill -INT "$1"
+  for _ in $(seq 300); do
+    sleep 0.1
+    [ $(($(signals "$1" ShdPnd) & 2)) = 0 ] && break
+  done
+  kill -TERM "$1"
+}
 finish() { echo "1..$n"; }
 
 # A quad and a triangle, at the given path.
