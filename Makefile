@@ -61,7 +61,7 @@ CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_spl
              wide_alike wide_gather wide_interval wide_packet_leaf \
              wide_descent wide_flight wide_pending wide_steps wide_start wide_stream wide_kernel wide_base wide_avx2 wide_avx512 wide \
              vertex_lanes vertex_lanes_facet vertex_lanes_smooth vertex_lanes_find \
-             ready_levels ready_work ready_numbers ready_num ready_keys ready_leaf ready_pick ready_triangle ready_leave \
+             ready_levels ready_work ready_numbers ready_starts ready_num ready_keys ready_leaf ready_pick ready_triangle ready_leave \
              ready_kernel ready_base ready_avx2 ready_avx512 ready
 CHAPTER_13 := $(CHAPTER_12) plan_sight plan plan_word plan_use tree_cache
 CHAPTER_14 := $(CHAPTER_13) post view_state view_script view_paths view_window

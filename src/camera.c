@@ -47,8 +47,7 @@ bool camera_view_of(camera_view *out, const camera *c, int width, int height,
 }
 
 ray camera_ray(const camera_view *v, float x, float y) {
-  vec3 d = vec3_mad(vec3_mad(v->corner, x, v->right), y, v->down);
-  return ray_from(v->eye, vec3_unit(d));
+  return ray_from(v->eye, vec3_unit(camera_way(v, x, y)));
 }
 
 // The distance from which a corner at q from the target is just within the

@@ -26,6 +26,11 @@ typedef struct camera_view {
 bool camera_view_of(camera_view *out, const camera *c, int width, int height,
                     error *err);
 
+// From the eye to the point (x, y) of the film plane; see camera_ray.
+static inline vec3 camera_way(const camera_view *v, float x, float y) {
+  return vec3_mad(vec3_mad(v->corner, x, v->right), y, v->down);
+}
+
 // The ray through the point (x, y) of the film in pixels, (0, 0) the upper
 // left corner of the upper left pixel; unit direction.
 ray camera_ray(const camera_view *v, float x, float y);

@@ -187,6 +187,7 @@ static void choose_integrator(render_job *j) {
     j->paths = (path_tracer){.world = &j->world,
                              .lights = &j->lights,
                              .ready = ready_best(),
+                             .starts = ready_starts_best(),
                              .sampler = (sampler_kind)v[OPT_SAMPLER].words,
                              .seed = seed};
     j->by = path_integrator(&j->paths);

@@ -20,6 +20,19 @@ static vec2 halves_place(const void *self, uint64_t pixel, uint32_t sample) {
   return w->by->place(w->by->self, other_pixel(w, pixel, sample), sample >> 1);
 }
 
+static void halves_begin(const void *self, const path_row *row,
+                         path_start *out) {
+  const halves_walk *w = self;
+  path_row other = *row;
+  other.pixel = other_pixel(w, row->pixel, row->sample);
+  other.sample >>= 1;
+  integrator_begin(w->by, &other, out);
+  for (int i = 0; i < row->count; i++) {
+    out[i].pixel = row->pixel + (uint64_t)i;
+    out[i].sample = row->sample;
+  }
+}
+
 static void *halves_room_new(const void *self, arena *mem) {
   const halves_walk *w = self;
   halves_room *room = ARENA_NEW(mem, halves_room, 1);
@@ -41,7 +54,8 @@ static void halves_radiance(const void *self, const path_start *starts,
 }
 
 integrator halves_integrator(const halves_walk *w) {
-  return (integrator){w, halves_place, halves_room_new, halves_radiance};
+  return (integrator){w, halves_place, halves_room_new, halves_radiance,
+                      halves_begin};
 }
 
 halves halves_new(arena *mem, int width, int height) {

@@ -332,9 +332,16 @@ static vec2 path_place(const void *self, uint64_t pixel, uint32_t sample) {
   return sampler_2(&s);
 }
 
+static void path_begin(const void *self, const path_row *row, path_start *out) {
+  const path_tracer *by = self;
+  by->starts(by->seed, row, out);
+}
+
 static void path_radiance(const void *self, const path_start *starts, size_t n,
                           vec3 *out, path_stats *stats, void *room) {
   const path_tracer *by = self;
+  const sampler_kind kind = by->sampler;
+  const uint64_t seed = by->seed;
   wave *w = room;
   w->by = by;
   w->stats = stats;
@@ -345,10 +352,10 @@ static void path_radiance(const void *self, const path_start *starts, size_t n,
   w->count = n;
   w->steps = 0;
   for (size_t i = 0; i < n; i++) {
-    w->paths[i] =
-        (path){.numbers = numbers_of(by, starts[i].pixel, starts[i].sample),
-               .throughput = vec3_all(1),
-               .segment = 1};
+    w->paths[i] = (path){
+        .numbers = sampler_of(kind, seed, starts[i].pixel, starts[i].sample),
+        .throughput = vec3_all(1),
+        .segment = 1};
     w->alive[i] = (uint32_t)i;
     w->rays[i] = starts[i].ray;
   }
@@ -380,5 +387,7 @@ static void *path_room(const void *self, arena *mem) {
 }
 
 integrator path_integrator(const path_tracer *p) {
-  return (integrator){p, path_place, path_room, path_radiance};
+  bool rows = p->starts != NULL && p->sampler == SAMPLER_SOBOL;
+  return (integrator){p, path_place, path_room, path_radiance,
+                      rows ? path_begin : NULL};
 }

@@ -15,6 +15,7 @@ typedef struct path_tracer {
   const path_world *world;
   const light_set *lights;  // of world's scene and lights
   ready_function *ready;    // NULL: one by one
+  starts_function *starts;  // NULL: one by one
   sampler_kind sampler;
   uint64_t seed;
   path_log *log;       // NULL: none

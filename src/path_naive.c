@@ -136,5 +136,5 @@ static void *naive_room(const void *self, arena *mem) {
 }
 
 integrator path_naive_integrator(const path_naive *p) {
-  return (integrator){p, naive_place, naive_room, naive_radiance};
+  return (integrator){p, naive_place, naive_room, naive_radiance, NULL};
 }

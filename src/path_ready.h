@@ -6,6 +6,7 @@
 
 #include "lanes.h"
 #include "light.h"
+#include "path_world.h"
 #include "sampler.h"
 #include "vertex.h"
 
@@ -66,6 +67,10 @@ typedef void ready_function(const ready_job *j, size_t n);
 
 // One by one, and none of them matt.
 void path_ready_alone(const ready_job *j, size_t n);
+
+// Where the samples of a row begin, by the Sobol' sequence of that seed.
+typedef void starts_function(uint64_t seed, const path_row *row,
+                             path_start *out);
 
 stop path_ready_stop(vertex *at, const path_ready *r, int lane);
 

@@ -3,6 +3,7 @@
 #ifndef PATH_WORLD_H
 #define PATH_WORLD_H
 
+#include "camera.h"
 #include "matter.h"
 
 // What a path walks through.
@@ -34,6 +35,17 @@ typedef struct path_start {
   uint32_t sample;
 } path_start;
 
+// Pixels next to each other, PATH_ROW at most, and the number of a sample of
+// each of them.
+typedef struct path_row {
+  const camera_view *view;
+  uint64_t pixel;  // the first, numbered in the full film
+  int x, y, count;
+  uint32_t sample;
+} path_row;
+
+enum { PATH_ROW = 16 };
+
 // One way to find the radiance along camera rays.  All of its answers are
 // functions of the scene, its settings, pixel and sample, whatever else is
 // asked at the same time.
@@ -46,7 +58,24 @@ typedef struct integrator {
   // The radiance that arrives along each of n starts, INTEGRATOR_BATCH at most.
   void (*radiance)(const void *self, const path_start *starts, size_t n,
                    vec3 *out, path_stats *stats, void *room);
+  // Where the samples of a row begin, by place and camera_ray; NULL: that is
+  // for integrator_begin to do.
+  void (*begin)(const void *self, const path_row *row, path_start *out);
 } integrator;
+
+static inline void integrator_begin(const integrator *by, const path_row *row,
+                                    path_start *out) {
+  if (by->begin != NULL) {
+    by->begin(by->self, row, out);
+    return;
+  }
+  for (int i = 0; i < row->count; i++) {
+    uint64_t pixel = row->pixel + (uint64_t)i;
+    vec2 at = by->place(by->self, pixel, row->sample);
+    float x = (float)(row->x + i) + at.x, y = (float)row->y + at.y;
+    out[i] = (path_start){camera_ray(row->view, x, y), pixel, row->sample};
+  }
+}
 
 // A batch: enough rays for a tracer to work on several at once, few enough for
 // their state to stay in the cache.

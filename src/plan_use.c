@@ -52,5 +52,5 @@ static void no_radiance(const void *self, const path_start *starts, size_t n,
 }
 
 integrator plan_dark(const integrator *real) {
-  return (integrator){real, dark_place, no_room, no_radiance};
+  return (integrator){real, dark_place, no_room, no_radiance, NULL};
 }

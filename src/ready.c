@@ -10,9 +10,22 @@ ready_function *ready_by(int level) {
   return wide_level_at(level) != NULL ? all[level] : NULL;
 }
 
-ready_function *ready_best(void) {
+starts_function *ready_starts_by(int level) {
+  starts_function *all[WIDE_LEVELS] = {starts_base, starts_avx2, starts_avx512};
+  return wide_level_at(level) != NULL ? all[level] : NULL;
+}
+
+static int best_level(void) {
   int level = WIDE_LEVELS - 1;
   while (ready_by(level) == NULL)
     level--;
-  return ready_by(level);
+  return level;
+}
+
+ready_function *ready_best(void) {
+  return ready_by(best_level());
+}
+
+starts_function *ready_starts_best(void) {
+  return ready_starts_by(best_level());
 }

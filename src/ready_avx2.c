@@ -5,8 +5,11 @@
 
 #if defined(__AVX2__)
 #include "ready_kernel.h"
+#include "ready_starts.h"
 
 ready_function *const ready_avx2 = ready_kernel;
+starts_function *const starts_avx2 = starts_kernel;
 #else
 ready_function *const ready_avx2 = NULL;
+starts_function *const starts_avx2 = NULL;
 #endif

@@ -3,5 +3,7 @@
 #include "ready_levels.h"
 
 #include "ready_kernel.h"
+#include "ready_starts.h"
 
 ready_function *const ready_base = ready_kernel;
+starts_function *const starts_base = starts_kernel;

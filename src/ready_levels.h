@@ -6,5 +6,7 @@
 #include "path_ready.h"
 
 extern ready_function *const ready_base, *const ready_avx2, *const ready_avx512;
+extern starts_function *const starts_base, *const starts_avx2,
+                                               *const starts_avx512;
 
 #endif

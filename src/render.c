@@ -76,16 +76,22 @@ static bool wants_first(const render_settings *s) {
   return s->shading != RENDER_RADIANCE || (s->aovs & of_first) != 0;
 }
 
-// Take up the sample of the given number of pixel (x, y) of the window.
-static void start_sample(const job *j, int x, int y, uint32_t sample,
-                         worker *w) {
-  size_t i = (size_t)y * (size_t)j->width + (size_t)x;
-  x += j->x0, y += j->y0;
-  uint64_t pixel = (uint64_t)y * (uint64_t)j->set->width + (uint64_t)x;
-  vec2 at = j->by.place(j->by.self, pixel, sample);
-  ray r = camera_ray(j->view, (float)x + at.x, (float)y + at.y);
-  w->starts[w->count] = (path_start){r, pixel, sample};
-  w->pixels[w->count++] = i;
+_Static_assert((int)TILE <= (int)PATH_ROW, "a row of a tile is a path_row");
+
+// Take up the sample of the given number of pixels (x0, y) to (x1 - 1, y) of
+// the window.
+static void start_row(const job *j, int x0, int x1, int y, uint32_t sample,
+                      worker *w) {
+  size_t i = (size_t)y * (size_t)j->width + (size_t)x0;
+  path_row row = {.view = j->view,
+                  .x = x0 + j->x0,
+                  .y = y + j->y0,
+                  .count = x1 - x0,
+                  .sample = sample};
+  row.pixel = (uint64_t)row.y * (uint64_t)j->set->width + (uint64_t)row.x;
+  integrator_begin(&j->by, &row, w->starts + w->count);
+  for (int k = 0; k < row.count; k++)
+    w->pixels[w->count++] = i + (size_t)k;
 }
 
 // Finish what the worker has taken up, in that order.
@@ -166,8 +172,7 @@ static void render_tile(job *j, size_t tile, worker *w) {
   uint32_t at = 0, sample;
   while (next_sample(j, tile, &at, &sample)) {
     for (int y = box.y0; y < box.y1; y++)
-      for (int x = box.x0; x < box.x1; x++)
-        start_sample(j, x, y, sample, w);
+      start_row(j, box.x0, box.x1, y, sample, w);
     if (w->count + TILE * TILE > INTEGRATOR_BATCH) end_samples(j, w);
   }
 }

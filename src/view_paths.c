@@ -68,8 +68,10 @@ view_paths *view_paths_new(const view_paths_settings *set, pool *threads,
   p->world = set->world;
   p->world.scene = &p->scene;
   p->film = film_new(mem, set->width, set->height, false);
-  p->tracer = (path_tracer){
-      .world = &p->world, .ready = ready_best(), .seed = set->seed};
+  p->tracer = (path_tracer){.world = &p->world,
+                            .ready = ready_best(),
+                            .starts = ready_starts_best(),
+                            .seed = set->seed};
   p->by = path_integrator(&p->tracer);
   hire_workers(p);
   p->tiles_across = (set->width + TILE_SIDE - 1) / TILE_SIDE;
@@ -121,12 +123,17 @@ static void sample_tile(void *context, size_t item, int worker) {
   int x0 = (int)item % p->tiles_across * TILE_SIDE;
   int y0 = (int)item / p->tiles_across * TILE_SIDE;
   size_t n = 0;
+  int x1 = x0 + TILE_SIDE < p->set.width ? x0 + TILE_SIDE : p->set.width;
   for (int y = y0; y < y0 + TILE_SIDE && y < p->set.height; y++)
-    for (int x = x0; x < x0 + TILE_SIDE && x < p->set.width; x++) {
-      uint64_t pixel = (uint64_t)y * (uint64_t)p->set.width + (uint64_t)x;
-      vec2 at = p->by.place(p->by.self, pixel, (uint32_t)p->spp);
-      ray r = camera_ray(&p->view, (float)x + at.x, (float)y + at.y);
-      w->starts[n++] = (path_start){r, pixel, (uint32_t)p->spp};
+    for (int x = x0; x < x1; x += PATH_ROW) {
+      path_row row = {.view = &p->view,
+                      .x = x,
+                      .y = y,
+                      .count = x1 - x < PATH_ROW ? x1 - x : PATH_ROW,
+                      .sample = (uint32_t)p->spp};
+      row.pixel = (uint64_t)y * (uint64_t)p->set.width + (uint64_t)x;
+      integrator_begin(&p->by, &row, w->starts + n);
+      n += (size_t)row.count;
     }
   p->by.radiance(p->by.self, w->starts, n, w->colors, &stats, w->room);
   for (size_t i = 0; i < n; i++)

@@ -367,7 +367,7 @@ static void echo_radiance(const void *self, const path_start *starts, size_t n,
 static void each_half_its_own(void **state) {
   (void)state;
   arena mem = {0};
-  integrator echo = {NULL, echo_place, echo_room, echo_radiance};
+  integrator echo = {NULL, echo_place, echo_room, echo_radiance, NULL};
   halves_walk w = {&echo, 100};
   integrator twice = halves_integrator(&w);
   path_start starts[8];

@@ -199,6 +199,38 @@ static void paths_are_alone(void **unused) {
   }
 }
 
+// Rows of samples begin where place and camera_ray say, also where the view is
+// so large that a direction's square is no float.
+static void rows_are_alone(void **unused) {
+  (void)unused;
+  light_set lights;
+  world *w = new_world(false, false, true, &lights);
+  camera_view view =
+      world_view((vec3){1, 0.5f, 1.5f}, (vec3){-1, 0, -1}, 70, 100, 10);
+  for (uint32_t k = 0; k < 3000; k++) {
+    path_tracer walker = {.world = &w->path, .lights = &lights, .seed = k / 9};
+    integrator alone = path_integrator(&walker);
+    path_row row = {
+        &view,      k * UINT64_C(0x100000001), (int)k % 101,
+        (int)k / 7, 1 + (int)k % PATH_ROW,     k % 5 ? k : k << 20 | 7};
+    if (k == 2000) view.corner = vec3_scale(view.corner, 1e30f);
+    path_start one[PATH_ROW], all[PATH_ROW];
+    size_t bytes = (size_t)row.count * sizeof *one;
+    memset(one, 0, sizeof one);
+    memset(all, 0, sizeof all);
+    integrator_begin(&alone, &row, one);
+    for (int level = 0; level < WIDE_LEVELS; level++) {
+      walker.starts = ready_starts_by(level);
+      if (walker.starts == NULL) continue;
+      integrator by = path_integrator(&walker);
+      assert_true(by.begin != NULL);
+      integrator_begin(&by, &row, all);
+      assert_memory_equal(one, all, bytes);
+    }
+  }
+  world_free(w);
+}
+
 // Functions without branches are those with them.
 static void no_branches(void **unused) {
   (void)unused;
@@ -218,6 +250,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(ready_is_alone),
       cmocka_unit_test(paths_are_alone),
+      cmocka_unit_test(rows_are_alone),
       cmocka_unit_test(no_branches),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -201,7 +201,7 @@ static image twice_as_large(output *o, const image *im, int side) {
 
 // The same numbers in every tile: by one thread, as it shares a buffer.
 static void draw_seams(output *o) {
-  integrator wrong = {&o->all.by, seam_place, seam_room, seam_radiance};
+  integrator wrong = {&o->all.by, seam_place, seam_room, seam_radiance, NULL};
   render_settings set = {
       .width = WIDTH, .height = HEIGHT, .spp = 4, .by = &o->all.by};
   image all[2];
