@@ -48,6 +48,8 @@ typedef struct wave {
   path_stats *stats;
   bool sheets, lights;  // whether there are any
   bool lit;             // whether ready knows of lights
+  bool even;            // whether the sky is, and found by chance alone
+  vec3 sky;
   path *paths;
   uint32_t *alive;
   ray *rays, *shadow_rays;
@@ -72,10 +74,14 @@ static void add(path *p, float weight, vec3 radiance) {
 
 // The sky, found by a direction.
 static void meet_sky(const wave *w, path *p, const ray *r) {
+  float weight = p->pdf > 0 ? 1 : path_trail_weight(&p->trail, w->steps);
+  if (w->even) {
+    if (vec3_finite(r->d)) add(p, weight, w->sky);
+    return;
+  }
   vec3 d = vec3_unit(r->d);
   vec3 sky = env_radiance(&w->by->world->scene->env, d);
   if (!(vec3_peak(sky) > 0)) return;
-  float weight = path_trail_weight(&p->trail, w->steps);
   if (p->pdf > 0)
     weight = power_weight(p->pdf,
                           light_pdf_env(w->by->lights, p->from, p->from_n, d));
@@ -287,6 +293,7 @@ static void step_all(wave *w) {
       meet_sky(w, &w->paths[w->alive[i]], &w->rays[i]);
       continue;
     }
+    vertex_expect(w->by->world->scene, w->hits[i].triangle);
     m->which[n] = w->alive[i];
     m->numbers[n] = w->paths[w->alive[i]].numbers;
     m->hits[n] = w->hits[i];
@@ -322,13 +329,9 @@ static void light_all(wave *w) {
   }
 }
 
-static sampler numbers_of(const path_tracer *by, uint64_t pixel,
-                          uint32_t sample) {
-  return sampler_of(by->sampler, by->seed, pixel, sample);
-}
-
 static vec2 path_place(const void *self, uint64_t pixel, uint32_t sample) {
-  sampler s = numbers_of(self, pixel, sample);
+  const path_tracer *by = self;
+  sampler s = sampler_of(by->sampler, by->seed, pixel, sample);
   return sampler_2(&s);
 }
 
@@ -349,6 +352,9 @@ static void path_radiance(const void *self, const path_start *starts, size_t n,
   w->sheets = by->world->thorough || scene_has_sheets(by->world->scene);
   w->lights = by->world->thorough || light_set_any(by->lights);
   w->lit = w->lights && by->questions <= 1 && path_ready_lights(by->lights);
+  const env *sky = &by->world->scene->env;
+  w->even = sky->kind == ENV_CONSTANT && !(by->lights->env.irradiance > 0);
+  w->sky = env_radiance(sky, (vec3){0, 1, 0});
   w->count = n;
   w->steps = 0;
   for (size_t i = 0; i < n; i++) {

@@ -106,6 +106,8 @@ static inline void ready_run(ready_work *w, const ready_job *j, size_t from,
 
 static void ready_kernel(const ready_job *j, size_t n) {
   ready_work w = {0};
+  for (size_t i = 0; i < n; i++)
+    lane_expect(j->scene, &j->hits[i]);
   for (size_t i = 0; i < n; i += LANES) {
     ready_run(&w, j, i, n - i < LANES ? (int)(n - i) : LANES);
     w.r.lit = j->lights != NULL;

@@ -27,6 +27,20 @@ typedef struct lane_work {
   lanes3 ng, ns, wo, p, p_error, p_smooth, inward;
 } lane_work;
 
+// Ask for what lane_gather will read next, when vertex_expect has been heard.
+static inline void lane_expect(const scene *s, const hit *h)
+    __attribute__((always_inline));
+static inline void lane_expect(const scene *s, const hit *h) {
+  const mesh *m = &s->mesh;
+  size_t at = 3 * (size_t)h->triangle;
+  for (size_t k = 0; k < 3; k++) {
+    __builtin_prefetch(&m->positions[m->position_index[at + k]]);
+    uint32_t which = m->normal_index != NULL ? m->normal_index[at + k] : 0;
+    if (m->normals != NULL && which != MESH_NONE)
+      __builtin_prefetch(&m->normals[which]);
+  }
+}
+
 // Corners and normals of a hit into lane i.
 static inline void lane_gather(lane_work *w, int i, const scene *s,
                                const hit *h, const ray *r) {
