@@ -30,6 +30,14 @@ typedef struct flight {
 
 _Static_assert(sizeof(flight) % 128 == 64, "an odd number of lines");
 
+// How many rays may wait to go alone.
+enum { LONELY = 4096 };
+
+// Rays of a stream that go alone, each from a child of its own.
+typedef struct lone_rays {
+  uint32_t count, ray[LONELY], child[LONELY];
+} lone_rays;
+
 // Flights that await the same kind of step.
 typedef struct flight_list {
   uint32_t count;

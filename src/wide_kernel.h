@@ -7,7 +7,7 @@
 #define WIDE_KERNEL_H
 
 #include "wide_single.h"
-#include "wide_stream.h"
+#include "wide_together.h"
 
 static bool kernel_closest(const void *tree, const ray *r, hit *h) {
   wide_walk w;
@@ -59,7 +59,12 @@ static void kernel_any_many(const void *tree, const ray *rays, bool *blocked,
   s.rays = rays;
   s.hits = NULL;
   s.blocked = blocked;
-  stream_run(&s, n, true);
+  if (!crowd_likely(rays, n) || s.t->nodes == NULL) {
+    stream_run(&s, n, true);
+    return;
+  }
+  crowd q;
+  crowds_run(&q, &s, (uint32_t)n);
 }
 
 // The entries of this level.

@@ -45,6 +45,19 @@ SIMD uint32_t pending_add(pending *q, uint32_t count, const leaf_corners *at,
   return count + (uint32_t)__builtin_popcount(m);
 }
 
+// The corners of the eight candidates from number i on.
+SIMD void pending_corners(leaf_corners *at, const pending *q, uint32_t i) {
+  at->of[0] = f8_load(q->corner[0] + i);
+  at->of[1] = f8_load(q->corner[1] + i);
+  at->of[2] = f8_load(q->corner[2] + i);
+  at->of[3] = f8_load(q->corner[3] + i);
+  at->of[4] = f8_load(q->corner[4] + i);
+  at->of[5] = f8_load(q->corner[5] + i);
+  at->of[6] = f8_load(q->corner[6] + i);
+  at->of[7] = f8_load(q->corner[7] + i);
+  at->of[8] = f8_load(q->corner[8] + i);
+}
+
 // The eight candidates from number i on, with their rays.
 SIMD void pending_tests(leaf_tests *of, const pending *q, uint32_t i,
                         const flight *flights, float large) {
@@ -53,15 +66,7 @@ SIMD void pending_tests(leaf_tests *of, const pending *q, uint32_t i,
   for (int k = 0; k < 8; k++)
     row[k] = (const char *)&flights[from[k]].w;
   tests_of_walks(of, row, large);
-  of->at.of[0] = f8_load(q->corner[0] + i);
-  of->at.of[1] = f8_load(q->corner[1] + i);
-  of->at.of[2] = f8_load(q->corner[2] + i);
-  of->at.of[3] = f8_load(q->corner[3] + i);
-  of->at.of[4] = f8_load(q->corner[4] + i);
-  of->at.of[5] = f8_load(q->corner[5] + i);
-  of->at.of[6] = f8_load(q->corner[6] + i);
-  of->at.of[7] = f8_load(q->corner[7] + i);
-  of->at.of[8] = f8_load(q->corner[8] + i);
+  pending_corners(&of->at, q, i);
 }
 
 #endif

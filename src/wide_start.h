@@ -6,7 +6,7 @@
 #include "wide_steps.h"
 
 // Make the next rays of the stream ready.
-SIMD void stream_ready(stream *s) {
+SIMD void stream_ready(stream *s, bool any) {
   ready_rows *q = &s->ready;
   ready_rays r;
   f8 v[8];
@@ -16,7 +16,13 @@ SIMD void stream_ready(stream *s) {
   q->next = 0;
   for (uint32_t i = 0; i < 8; i++) {
     uint32_t k = s->taken + (i < q->count ? i : q->count - 1);
-    q->index[i] = s->groups[k / PACKET] * PACKET + k % PACKET;
+    if (any && s->alone != NULL) {
+      q->index[i] = s->alone->ray[k];
+      q->from[i] = s->alone->child[k];
+    } else {
+      q->index[i] = s->groups[k / PACKET] * PACKET + k % PACKET;
+      q->from[i] = 0;
+    }
     row[i] = (const char *)&s->rays[q->index[i]];
   }
   s->taken += q->count;
@@ -36,10 +42,10 @@ SIMD bool flight_start(stream *s, flight *f, bool any) {
   while (true) {
     if (q->next == q->count) {
       if (s->taken == s->count) return false;
-      stream_ready(s);
+      stream_ready(s, any);
     }
     uint32_t k = q->next++, i = q->index[k];
-    if (any) s->blocked[i] = false;
+    if (any && s->blocked[i]) continue;
     if ((q->can >> k & 1) == 0) {
       if (!any) s->hits[i] = (hit){.t = s->rays[i].tmax, .triangle = HIT_NONE};
       continue;
@@ -51,7 +57,7 @@ SIMD bool flight_start(stream *s, flight *f, bool any) {
     f->w.r = &s->rays[i];
     f->index = i;
     f->child[0] = FLIGHT_END;
-    f->next = 0;
+    f->next = q->from[k];
     f->top = 1;
     return true;
   }

@@ -12,13 +12,13 @@ enum { STREAM = 8192 };
 // `can` is set; `next` is the one to begin with, of `count`.
 typedef struct ready_rows {
   float row[ROWS][8][8];
-  uint32_t index[8];
+  uint32_t index[8], from[8];
   uint32_t can, next, count;
 } ready_rows;
 
 // A stream: its rays and those in flight.  One of hits and blocked is NULL.
-// Of the rays those fly that are in `groups` of PACKET rays, of which the last
-// may be shorter.
+// Those fly that are in `groups` of PACKET rays, of which the last may be
+// shorter, or else the lone ones.
 typedef struct stream {
   const wide_tree *t;
   const ray *rays;
@@ -26,6 +26,7 @@ typedef struct stream {
   bool *blocked;
   uint32_t count, taken;
   uint32_t groups[STREAM / PACKET];
+  const lone_rays *alone;  // NULL: groups
   ready_rows ready;
   pending pending;
   _Alignas(64) flight flights[FLIGHTS];

@@ -49,9 +49,11 @@ SIMD bool stream_packet(stream *s, packet *p, uint32_t first, bool any) {
 SIMD void stream_run(stream *s, size_t n, bool any) {
   packet p;
   pending_clear(&s->pending);
+  s->alone = NULL;
   while (n > 0) {
     uint32_t size = n < STREAM ? (uint32_t)n : STREAM, groups = 0;
     s->count = 0;
+    if (any) memset(s->blocked, 0, size * sizeof(bool));
     for (uint32_t i = 0; i < size; i += PACKET) {
       bool whole = size - i >= PACKET;
       if (whole && stream_packet(s, &p, i, any)) continue;

@@ -108,18 +108,36 @@ static void fill_fans(answers *a, const grove *g, uint64_t *state) {
   }
 }
 
+// Whether many at once agree with the list, on all levels.
+static void try_many(answers *a, wide_grove *w) {
+  ask_list(a, &w->g);
+  for (int level = 0; level < WIDE_LEVELS; level++) {
+    wide_grove of = *w;
+    of.level = wide_level_at(level);
+    if (of.level != NULL && !many_agree(a, &of)) w->g.wrong = 1;
+  }
+}
+
 static void try_fans(void *context, size_t item, int worker) {
   (void)worker;
   wide_grove *w = context;
   answers a;
   uint64_t state = 3571 * item + 7;
   fill_fans(&a, &w->g, &state);
-  ask_list(&a, &w->g);
-  for (int level = 0; level < WIDE_LEVELS; level++) {
-    wide_grove of = *w;
-    of.level = wide_level_at(level);
-    if (of.level != NULL && !many_agree(&a, &of)) w->g.wrong = 1;
+  try_many(&a, w);
+}
+
+// Rays of all kinds, but 16 from one point, as crowds begin.
+static void try_points(void *context, size_t item, int worker) {
+  (void)worker;
+  wide_grove *w = context;
+  answers a;
+  uint64_t state = 1201 * item + 5;
+  for (int i = 0; i < BATCH; i++) {
+    a.rays[i] = ray_near(&w->g, &state);
+    if (i % 16 != 0) a.rays[i].o = a.rays[i - 1].o;
   }
+  try_many(&a, w);
 }
 
 static void wide_plant(wide_grove *w, shape s, arena *mem, bvh_method method) {
@@ -148,9 +166,8 @@ static void wide_equals_list(void **unused) {
   arena_free(&mem);
 }
 
-// The same for rays next to each other, which go in packets.
-static void packets_equal_list(void **unused) {
-  (void)unused;
+// The same for batches of other rays.
+static void try_batches(void (*batch)(void *, size_t, int)) {
   arena mem = {0};
   pool *threads = pool_new(&mem, pool_default_threads());
   shape all[SHAPES];
@@ -158,11 +175,58 @@ static void packets_equal_list(void **unused) {
   for (int i = 0; i < SHAPES; i++) {
     wide_grove w;
     wide_plant(&w, all[i], &mem, BVH_SAH);
-    pool_run(threads, many(30000) / BATCH, try_fans, &w);
+    pool_run(threads, many(30000) / BATCH, batch, &w);
     if (w.g.wrong) print_message("# %s differs\n", w.g.s.name);
     assert_int_equal(w.g.wrong, 0);
   }
   pool_free(threads);
+  arena_free(&mem);
+}
+
+// The same for rays next to each other, which go in packets.
+static void packets_equal_list(void **unused) {
+  (void)unused;
+  try_batches(try_fans);
+}
+
+// The same for rays of common points, which go in crowds.
+static void crowds_equal_list(void **unused) {
+  (void)unused;
+  try_batches(try_points);
+}
+
+// Slivers through the middle of space: a ray enters nearly all boxes, so that
+// more lists wait than a crowd has room for.
+static void crowds_find_no_room(void **unused) {
+  (void)unused;
+  enum { SLIVERS = 12000, RAYS = 3000 };
+  arena mem = {0};
+  shape s = shape_new(&mem, "slivers", 3 * SLIVERS, SLIVERS);
+  uint64_t state = 29;
+  for (int i = 0; i < SLIVERS; i++) {
+    vec3 p = shape_point(&state);
+    shape_three(&s, p, vec3_mad(p, 0x1p-9f, shape_point(&state)),
+                vec3_scale(p, -1));
+  }
+  wide_grove w;
+  wide_plant(&w, s, &mem, BVH_SAH);
+  ray *rays = ARENA_NEW(&mem, ray, RAYS);
+  bool *blocked = ARENA_NEW(&mem, bool, RAYS);
+  bool *list = ARENA_NEW(&mem, bool, RAYS);
+  int hits = 0;
+  for (int i = 0; i < RAYS; i++) {
+    vec3 o = i % 16 ? rays[i - 1].o : shape_point(&state);
+    rays[i] = (ray){o, vec3_mad(o, -1.5f, shape_point(&state)), 0, INFINITY};
+    hit h = {.t = INFINITY, .triangle = HIT_NONE};
+    list[i] = brute_closest(&w.g.b, &rays[i], &h);
+    hits += list[i];
+  }
+  assert_in_range(hits, RAYS / 10, RAYS * 9 / 10);
+  for (int level = 0; level < WIDE_LEVELS; level++) {
+    if (wide_level_at(level) == NULL) continue;
+    wide_level_at(level)->any_many(&w.wide, rays, blocked, RAYS);
+    assert_memory_equal(blocked, list, RAYS * sizeof(bool));
+  }
   arena_free(&mem);
 }
 
@@ -296,6 +360,8 @@ int main(void) {
       cmocka_unit_test(trees_are_whole),
       cmocka_unit_test(wide_equals_list),
       cmocka_unit_test(packets_equal_list),
+      cmocka_unit_test(crowds_equal_list),
+      cmocka_unit_test(crowds_find_no_room),
       cmocka_unit_test(threads_do_not_matter),
       cmocka_unit_test(no_rays),
   };

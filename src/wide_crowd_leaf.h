@@ -1,0 +1,111 @@
+// wide_crowd_leaf.h — a crowd at a leaf.
+
+#ifndef WIDE_CROWD_LEAF_H
+#define WIDE_CROWD_LEAF_H
+
+#include "wide_crowd.h"
+
+// The lanes whose triangle lies behind the ray, so far that no rounding of t
+// matters: t_error of triangle.c is at most 171 roundings of the cube of the
+// largest coordinate over det, and -t is more than twice that.  The constant
+// added is for what underflows.
+SIMD uint32_t leaf_behind(const leaf_shear *c, f8 sz) {
+  const f8 z[3] = {f8_mul(sz, c->z[0]), f8_mul(sz, c->z[1]),
+                   f8_mul(sz, c->z[2])};
+  f8 zero = f8_all(0), det = f8_add(f8_add(c->e[0], c->e[1]), c->e[2]);
+  f8 t = f8_add(f8_mul(c->e[0], z[0]), f8_mul(c->e[1], z[1]));
+  t = f8_add(t, f8_mul(c->e[2], z[2]));
+  f8 most = f8_max(f8_max(f8_peak(c->x), f8_peak(c->y)), f8_peak(z));
+  f8 error = f8_mul(f8_mul(most, most), f8_mul(most, f8_all(0x1.8p-16f)));
+  error = f8_add(error, f8_all(0x1p-80f));
+  return f8_lt(error, f8_where_lt(det, zero, t, f8_sub(zero, t)));
+}
+
+// Eight rays of the crowd and a triangle of each, the candidates from number i
+// on.
+SIMD void crowd_tests(leaf_tests *of, const crowd *q, uint32_t i) {
+  const char *node[8], *leaf[8];
+  const pending *p = &q->pending;
+  f8 v[8], w[8], zero = f8_all(0);
+  for (int k = 0; k < 8; k++) {
+    node[k] = (const char *)&q->at_node[p->flight[i + (uint32_t)k]];
+    leaf[k] = (const char *)&q->at_leaf[p->flight[i + (uint32_t)k]];
+  }
+  f8_columns(v, leaf, 0);
+  of->rays = (leaf_rays){{v[0], v[1], v[2]}, v[3], v[4]};
+  of->sz = v[5];
+  of->tmin = v[6];
+  f8_columns(v, node, 0);
+  f8_columns(w, node, sizeof(f8));
+  of->reach = v[3];
+  of->tmax = of->best = w[4];
+  turn_axes(of->inv, v, v[7], w[3]);
+  f8 up[3], down[3];
+  turn_axes(up, v + 4, v[7], w[3]);
+  turn_axes(down, w, v[7], w[3]);
+  for (int k = 0; k < 3; k++) {
+    of->enter[k] = f8_where_lt(of->inv[k], zero, down[k], up[k]);
+    of->leave[k] = f8_where_lt(of->inv[k], zero, up[k], down[k]);
+  }
+  of->large = q->s->t->large;
+  pending_corners(&of->at, p, i);
+}
+
+// Candidate number i, which single precision does not decide.
+SIMD bool crowd_unsure(const crowd *q, uint32_t i, bool close) {
+  const pending *p = &q->pending;
+  wide_walk w;
+  hit h;
+  walk_start(&w, q->s->t, &q->s->rays[q->first + p->flight[i]]);
+  return leaf_one(&w, &(leaf_triangle){&p->corner[0][i], PENDING}, close, &h);
+}
+
+// Look closely at all candidates.
+SIMD void crowd_settle(crowd *q) {
+  pending *p = &q->pending;
+  for (uint32_t i = 0; i < p->count; i += 8) {
+    leaf_tests of;
+    leaf_shear c;
+    leaf_found f;
+    uint32_t left = p->count - i, m = left < 8 ? (1u << left) - 1 : 0xff;
+    crowd_tests(&of, q, i);
+    leaf_edges(&c, &of.rays, &of.at);
+    leaf_distances(&f, &c, &of, m);
+    for (m = f.hits | f.unsure; m != 0; m &= m - 1) {
+      uint32_t k = (uint32_t)__builtin_ctz(m), who = p->flight[i + k];
+      bool unsure = (f.unsure >> k & 1) != 0;
+      if (unsure && !crowd_unsure(q, i + k, f.close >> k & 1)) continue;
+      q->s->blocked[q->first + who] = true;
+      q->at_node[who].until = -1;
+    }
+  }
+  p->count = 0;
+}
+
+// The rays of a part at its leaf.
+SIMD void crowd_leaf(crowd *q, const crowd_part *at) {
+  static const uint32_t turned[3][3] = {{1, 2, 0}, {2, 0, 1}, {0, 1, 2}};
+  uint32_t n = wide_leaf_count(at->child);
+  const uint32_t *leaf =
+      q->s->t->triangles + 10 * (size_t)wide_leaf_first(at->child);
+  pending *p = &q->pending;
+  for (uint32_t i = at->first; i < at->first + at->count; i++) {
+    const crowd_shear *s = &q->at_leaf[q->leaves.ray[i]];
+    leaf_corners corners;
+    leaf_shear c;
+    leaf_rays r = {{f8_all(s->o[0]), f8_all(s->o[1]), f8_all(s->o[2])},
+                   f8_all(s->sx),
+                   f8_all(s->sy)};
+    corners_load(&corners, leaf, n, turned[s->kz]);
+    uint32_t m = leaf_edges(&c, &r, &corners) & ((1u << n) - 1);
+    if (m == 0) continue;
+    m &= ~leaf_behind(&c, f8_all(s->sz));
+    if (m == 0) continue;
+    f8 who = f8_bits(q->leaves.ray[i]);
+    memcpy(p->flight + p->count, &who, sizeof who);
+    p->count = pending_add(p, p->count, &corners, leaf + 9 * n, m);
+    if (p->count > PENDING - 16) crowd_settle(q);
+  }
+}
+
+#endif
