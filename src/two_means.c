@@ -6,43 +6,45 @@
 #include "two_means.h"
 
 #include <math.h>
-#include <string.h>
 
 // Pixels a side of a block whose other pixels say what to expect of one.
 enum { BLOCK = 4, BLOCK_PIXELS = BLOCK * BLOCK };
 
-// Numbers of a block's pixels in a ring: the first of them again behind the
-// last, so that what follows a pixel are all others.
-typedef struct ring {
-  double at[2 * BLOCK_PIXELS];
-} ring;
-
 // One channel of a block.
 typedef struct block {
   int count;
-  ring mean, mean2, square;  // of the two means; ((a - b) / 2)^2
+  double mean[BLOCK_PIXELS], mean2[BLOCK_PIXELS];  // of the two means
+  double square[BLOCK_PIXELS];                     // ((a - b) / 2)^2
   double least[BLOCK_PIXELS], other[BLOCK_PIXELS];
 } block;
 
-// Of the others of each pixel.
+// Sums over the others of each pixel.
 typedef struct others {
-  double sum[BLOCK_PIXELS], sum2[BLOCK_PIXELS], noise[BLOCK_PIXELS];
+  double mean[BLOCK_PIXELS], mean2[BLOCK_PIXELS], square[BLOCK_PIXELS];
 } others;
 
 static double more(double a, double b) {
   return a > b ? a : b;
 }
 
-// All pixels at once, one step around the ring after the other.
+// Those before a pixel and those behind it: nothing is taken off again, where
+// one pixel may be a million times the others.
+static void sum_others(double *out, const double *of, int count) {
+  double before = 0, behind = 0;
+  for (int k = 0; k < count; k++) {
+    out[k] = before;
+    before += of[k];
+  }
+  for (int k = count - 1; k >= 0; k--) {
+    out[k] += behind;
+    behind += of[k];
+  }
+}
+
 static void ask_others(const block *b, others *out) {
-  others o = {{0}, {0}, {0}};
-  for (int i = 1; i < b->count; i++)
-    for (int k = 0; k < BLOCK_PIXELS; k++) {
-      o.sum[k] += b->mean.at[i + k];
-      o.sum2[k] += b->mean2.at[i + k];
-      o.noise[k] += b->square.at[i + k];
-    }
-  *out = o;
+  sum_others(out->mean, b->mean, b->count);
+  sum_others(out->mean2, b->mean2, b->count);
+  sum_others(out->square, b->square, b->count);
 }
 
 // Radiance squared, as a pixel and its neighbours let expect: the neighbours
@@ -53,9 +55,9 @@ static void ask_others(const block *b, others *out) {
 static void expect_squares(const block *b, const others *o, double *out) {
   double n = (double)b->count - 1;
   for (int k = 0; k < BLOCK_PIXELS; k++) {
-    double mean = b->mean.at[k], square = b->square.at[k];
-    double around = o->sum[k] / n, noise = o->noise[k] / n;
-    double vary = (o->sum2[k] - o->sum[k] * around) / (n - 1);
+    double mean = b->mean[k], square = b->square[k];
+    double around = o->mean[k] / n, noise = o->square[k] / n;
+    double vary = (o->mean2[k] - o->mean[k] * around) / (n - 1);
     double spread = more(vary - noise, 0);
     double all = spread + more(noise, square);
     double trust = spread / (all > 0 ? all : 1);
@@ -71,31 +73,27 @@ static void expect_squares(const block *b, const others *o, double *out) {
 
 static void add_block(const block *b, two_means_sums *sums) {
   double expected[BLOCK_PIXELS];
-  others o;
+  others o = {{0}, {0}, {0}};
   ask_others(b, &o);
   if (b->count > 2)
     expect_squares(b, &o, expected);
   else
     for (int k = 0; k < b->count; k++)
-      expected[k] = more(b->mean2.at[k] - b->square.at[k], 0);
+      expected[k] = more(b->mean2[k] - b->square[k], 0);
   for (int k = 0; k < b->count; k++) {
     double share = 1 / (expected[k] + 0.01);
-    sums->square += share * b->square.at[k];
+    sums->square += share * b->square[k];
     sums->other += share * b->other[k];
   }
 }
 
 static void put(block *b, const two_means_pixel *p, int channel) {
   double x = p->a[channel], y = p->b[channel], mean = (x + y) / 2;
-  b->mean.at[b->count] = mean;
-  b->mean2.at[b->count] = mean * mean;
-  b->square.at[b->count] = (x - y) * (x - y) / 4;
+  b->mean[b->count] = mean;
+  b->mean2[b->count] = mean * mean;
+  b->square[b->count] = (x - y) * (x - y) / 4;
   b->least[b->count] = x < y ? x : y;
   b->other[b->count++] = p->other[channel];
-}
-
-static void close_ring(ring *r, int count) {
-  memcpy(r->at + count, r->at, (size_t)count * sizeof *r->at);
 }
 
 // The three channels of the block that starts at (x0, y0); returns its pixels.
@@ -110,12 +108,8 @@ static int measure_block(const two_means *t, int x0, int y0,
       for (int c = 0; c < 3; c++)
         put(&b[c], &p, c);
     }
-  for (int c = 0; c < 3; c++) {
-    close_ring(&b[c].mean, b[c].count);
-    close_ring(&b[c].mean2, b[c].count);
-    close_ring(&b[c].square, b[c].count);
+  for (int c = 0; c < 3; c++)
     add_block(&b[c], sums);
-  }
   return b[0].count;
 }
 
