@@ -54,13 +54,13 @@ static bool doubling_pixel(const void *self, size_t i, two_means_pixel *out) {
   vec3 whole = n == m ? sum_of(&d->all, i) : d->marks.whole[i];
   vec3 half = n == m ? d->marks.whole[i] : d->marks.half[i];
   float w[3] = {whole.x, whole.y, whole.z}, h[3] = {half.x, half.y, half.z};
-  vec3 variance = film_variance(&d->all, i);
-  out->other[0] = (double)variance.x * n;
-  out->other[1] = (double)variance.y * n;
-  out->other[2] = (double)variance.z * n;
+  double of_half = 2.0 / m, of_all = 1.0 / n, of_rest = 1.0 / (n - 1);
   for (int c = 0; c < 3; c++) {
-    out->a[c] = (double)h[c] / (m / 2);
-    out->b[c] = (double)(w[c] - h[c]) / (m / 2);
+    double sum = d->all.sum[i][c];
+    double spread = d->all.square[i][c] - sum * sum * of_all;
+    out->other[c] = spread > 0 ? spread * of_rest : 0;
+    out->a[c] = (double)h[c] * of_half;
+    out->b[c] = (double)(w[c] - h[c]) * of_half;
   }
   return true;
 }

@@ -47,17 +47,17 @@ static void ask_others(const block *b, others *out) {
   sum_others(out->square, b->square, b->count);
 }
 
-// Radiance squared, as a pixel and its neighbours let expect: the neighbours
-// have a mean, vary around it by themselves (spread), and all are uncertain.
-// The less certain the pixel is, the more its neighbours count.  All pixels at
-// once, those that are not there too.
+// 1 / (radiance^2 + 0.01), as a pixel and its neighbours let expect radiance:
+// the neighbours have a mean, vary around it by themselves (spread), and all
+// are uncertain.  The less certain the pixel is, the more its neighbours count.
+// All pixels at once, those that are not there too.
 // Source: James and Stein, 1961.
-static void expect_squares(const block *b, const others *o, double *out) {
-  double n = (double)b->count - 1;
+static void expect_shares(const block *b, const others *o, double *out) {
+  double each = 1.0 / (b->count - 1), rest = 1.0 / (b->count - 2);
   for (int k = 0; k < BLOCK_PIXELS; k++) {
     double mean = b->mean[k], square = b->square[k];
-    double around = o->mean[k] / n, noise = o->square[k] / n;
-    double vary = (o->mean2[k] - o->mean[k] * around) / (n - 1);
+    double around = o->mean[k] * each, noise = o->square[k] * each;
+    double vary = (o->mean2[k] - o->mean[k] * around) * rest;
     double spread = more(vary - noise, 0);
     double all = spread + more(noise, square);
     double trust = spread / (all > 0 ? all : 1);
@@ -67,23 +67,22 @@ static void expect_squares(const block *b, const others *o, double *out) {
     double expected = likely * likely + (1 - trust) * spread / 2;
     // A lamp among dark neighbours: both means see it, as no accident would.
     double sure = more(b->least[k] - 2 * sqrt(noise), 0);
-    out[k] = more(expected, sure * sure);
+    out[k] = 1 / (more(expected, sure * sure) + 0.01);
   }
 }
 
 static void add_block(const block *b, two_means_sums *sums) {
-  double expected[BLOCK_PIXELS];
+  double share[BLOCK_PIXELS];
   others o = {{0}, {0}, {0}};
   ask_others(b, &o);
   if (b->count > 2)
-    expect_squares(b, &o, expected);
+    expect_shares(b, &o, share);
   else
     for (int k = 0; k < b->count; k++)
-      expected[k] = more(b->mean2[k] - b->square[k], 0);
+      share[k] = 1 / (more(b->mean2[k] - b->square[k], 0) + 0.01);
   for (int k = 0; k < b->count; k++) {
-    double share = 1 / (expected[k] + 0.01);
-    sums->square += share * b->square[k];
-    sums->other += share * b->other[k];
+    sums->square += share[k] * b->square[k];
+    sums->other += share[k] * b->other[k];
   }
 }
 

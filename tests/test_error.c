@@ -257,7 +257,7 @@ static void dark_and_noisy(void **state) {
 }
 
 // Two means, one of which is wrong here and there; some pixels have none.
-enum { RING_WIDTH = 23, RING_HEIGHT = 10 };
+enum { RAGGED_WIDTH = 23, RAGGED_HEIGHT = 10 };
 
 static bool two_pixels(const void *self, size_t i, two_means_pixel *out) {
   (void)self;
@@ -274,13 +274,13 @@ static bool two_pixels(const void *self, size_t i, two_means_pixel *out) {
 // The mean of f of the other pixels of the block of pixel i; their number.
 static int of_others(double *mean, size_t i, int channel,
                      double (*f)(double a, double b)) {
-  size_t x = i % RING_WIDTH / 4 * 4, y = i / RING_WIDTH / 4 * 4;
+  size_t x = i % RAGGED_WIDTH / 4 * 4, y = i / RAGGED_WIDTH / 4 * 4;
   int n = 0;
   *mean = 0;
-  for (size_t v = y; v < y + 4 && v < RING_HEIGHT; v++)
-    for (size_t u = x; u < x + 4 && u < RING_WIDTH; u++) {
+  for (size_t v = y; v < y + 4 && v < RAGGED_HEIGHT; v++)
+    for (size_t u = x; u < x + 4 && u < RAGGED_WIDTH; u++) {
       two_means_pixel p;
-      size_t at = v * RING_WIDTH + u;
+      size_t at = v * RAGGED_WIDTH + u;
       if (at == i || !two_pixels(NULL, at, &p)) continue;
       *mean += f(p.a[channel], p.b[channel]);
       n++;
@@ -319,14 +319,14 @@ static double share_of(size_t i, int c, const two_means_pixel *p) {
 }
 
 // All pixels of a block at once are those one by one, for any threads.
-static void a_ring_is_a_block(void **state) {
+static void a_block_is_its_pixels(void **state) {
   (void)state;
   arena mem = {0};
-  two_means t = {RING_WIDTH, RING_HEIGHT, NULL, two_pixels};
+  two_means t = {RAGGED_WIDTH, RAGGED_HEIGHT, NULL, two_pixels};
   two_means_sums is = {0, 0}, alone = two_means_measure(&t, NULL);
   two_means_pixel p;
   double n = 0;
-  for (size_t i = 0; i < RING_WIDTH * RING_HEIGHT; i++)
+  for (size_t i = 0; i < RAGGED_WIDTH * RAGGED_HEIGHT; i++)
     for (int c = 0; c < 3 && two_pixels(NULL, i, &p); c++, n++) {
       is.square += share_of(i, c, &p) * apart(p.a[c], p.b[c]);
       is.other += share_of(i, c, &p) * p.other[c];
@@ -393,7 +393,7 @@ int main(void) {
       cmocka_unit_test(limits_hold),
       cmocka_unit_test(doubling_sees_evenness),
       cmocka_unit_test(dark_and_noisy),
-      cmocka_unit_test(a_ring_is_a_block),
+      cmocka_unit_test(a_block_is_its_pixels),
       cmocka_unit_test(each_half_its_own),
   };
   return cmocka_run_group_tests_name("error", tests, NULL, NULL);
