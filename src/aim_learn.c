@@ -26,7 +26,7 @@ enum { LOOKS = 2 };
 
 typedef struct look_job {
   const path_tracer *by;
-  const path_lesson *lesson;
+  const path_film *lesson;
   void *rooms[LOOKS];
   double roots[LOOKS], gains[LOOKS];
 } look_job;
@@ -43,8 +43,8 @@ static void look(void *context, size_t item, int worker) {
   vec3 colors[INTEGRATOR_BATCH];
   path_stats stats = {0};
   for (size_t i = 0; i < INTEGRATOR_BATCH; i++)
-    starts[i] = path_lesson_start(job->lesson, &by, item * INTEGRATOR_BATCH + i,
-                                  LOOKS * INTEGRATOR_BATCH);
+    starts[i] = path_learn_start(job->lesson, &by, item * INTEGRATOR_BATCH + i,
+                                 LOOKS * INTEGRATOR_BATCH);
   by.radiance(by.self, starts, INTEGRATOR_BATCH, colors, &stats,
               job->rooms[item]);
   for (size_t i = 0; i < INTEGRATOR_BATCH; i++)
@@ -57,7 +57,7 @@ typedef struct sight {
   double brightness, gain;
 } sight;
 
-static sight look_around(const path_tracer *by, const path_lesson *lesson,
+static sight look_around(const path_tracer *by, const path_film *lesson,
                          pool *threads) {
   arena scratch = {0};
   look_job job = {.by = by, .lesson = lesson};
@@ -95,7 +95,7 @@ static bool map_by(const study *s, size_t photons, aim_map *out, arena *mem) {
   return enough;
 }
 
-static bool pays(const study *s, const aim_map *map, const path_lesson *lesson,
+static bool pays(const study *s, const aim_map *map, const path_film *lesson,
                  double brightness) {
   path_tracer by = *s->by;
   by.aim = map;
@@ -103,7 +103,7 @@ static bool pays(const study *s, const aim_map *map, const path_lesson *lesson,
   return gain >= WORTH * brightness * brightness;
 }
 
-const aim_map *aim_learn(const path_tracer *by, const path_lesson *lesson,
+const aim_map *aim_learn(const path_tracer *by, const path_film *lesson,
                          arena *mem, pool *threads) {
   const path_world *w = by->world;
   bool chains = w->max_depth == 0 || w->max_depth > 2;

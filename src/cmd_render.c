@@ -3,6 +3,7 @@
 #include "aim_learn.h"
 #include "cmd_render_plan.h"
 #include "cmd_signals.h"
+#include "share_learn.h"
 
 #include "adaptive.h"
 #include "clock.h"
@@ -165,10 +166,11 @@ static void learn_lights(render_job *j) {
   const shot *s = &j->shot;
   if (j->settings.shading != RENDER_RADIANCE) return;
   double start = clock_seconds();
-  path_lesson lesson = {&s->view, s->width, s->height};
-  path_learn(&j->lights, &j->paths, &lesson, s->mem, s->threads);
+  j->film = (path_film){&s->view, s->width, s->height};
+  path_learn(&j->lights, &j->paths, &j->film, s->mem, s->threads);
   if (plan_needs(&j->plan, PLAN_AIM))
-    j->paths.aim = aim_learn(&j->paths, &lesson, s->mem, s->threads);
+    j->paths.aim = aim_learn(&j->paths, &j->film, s->mem, s->threads);
+  if (share_learn(&j->paths, &j->film, s->threads)) j->paths.film = &j->film;
   j->learn_seconds = clock_seconds() - start;
 }
 

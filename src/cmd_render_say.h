@@ -28,6 +28,7 @@ typedef struct render_job {
   cmd_tree tree;      // of the other, with
   path_world world;   // what it traces
   light_set lights;   // and looks for
+  path_film film;
   path_tracer paths;  // by one of these
   path_naive naive;
   integrator by, dark;

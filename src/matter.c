@@ -39,6 +39,12 @@ vec3 matter_emission(const surface *s) {
   return textured(m->ke, &m->map_ke, s->uv);
 }
 
+bool matter_matt(const surface *s) {
+  const material *m = material_at(s);
+  return m->kind == MATERIAL_BLINN_PHONG && !(vec3_peak(m->ks) > 0) &&
+         m->map_ks.image == NULL;
+}
+
 vec3 matter_albedo(const surface *s) {
   const material *m = material_at(s);
   if (m->kind == MATERIAL_GLASS) return vec3_all(1);

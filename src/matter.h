@@ -36,6 +36,9 @@ float matter_opacity(const surface *s);
 // Radiance emitted on the front side.
 vec3 matter_emission(const surface *s);
 
+// Whether it is matt and nothing else, as seen from anywhere.
+bool matter_matt(const surface *s);
+
 // The base colour, for the picture of albedo: kd or ks, textured; white for
 // glass.
 vec3 matter_albedo(const surface *s);

@@ -1,104 +1,14 @@
 // path.c — the trick: paths go in waves.  All paths of a batch take one step
 // together: their rays are traced at once, then all are shaded, then all
 // shadow rays are traced at once.  A path is still a function of its pixel and
-// sample alone, so nobody can tell from the picture.
+// sample alone, and what it is told of those of its group (path_share.h) of
+// theirs, so nobody can tell from the picture.
 
 #include "path.h"
 
+#include "path_wave.h"
 #include "roulette.h"
 #include "tracer.h"
-#include "vertex.h"
-
-// A path between two waves.
-typedef struct path {
-  sampler numbers;
-  vec3 sum, throughput;
-  vec3 from, from_n;  // where the last direction was sampled, and the normal
-  float pdf;          // of that direction; 0 where only a delta could give it
-  int segment, inside;
-  path_trail trail;
-} path;
-
-// Rays that have met a surface, and where: few enough for the fastest cache.
-enum { MET = 64 };
-
-typedef struct met {
-  uint32_t which[MET];
-  ray rays[MET];
-  hit hits[MET];
-  sampler numbers[MET];
-  vertex at[MET];
-  path_ready ready[MET / LANES];
-} met;
-
-// A light sample on its way through the scene: what it brings if nothing is in
-// between, to which path; and for sheets, from where to where.
-typedef struct shadow {
-  uint32_t path;
-  vec3 lit;
-  light_ray to;
-  surface from;
-  size_t record;  // in the log; PATH_NO_RECORD: none
-} shadow;
-
-// The room of one worker: paths, those still on their way with their rays, and
-// the light samples of this wave.
-typedef struct wave {
-  const path_tracer *by;
-  path_stats *stats;
-  bool sheets, lights;  // whether there are any
-  bool lit;             // whether ready knows of lights
-  bool even;            // whether the sky is, and found by chance alone
-  vec3 sky;
-  path *paths;
-  uint32_t *alive;
-  ray *rays, *shadow_rays;
-  hit *hits;
-  shadow *shadows;
-  bool *blocked;
-  met *met;
-  path_aims *aims;  // NULL: no ray is aimed
-  size_t count, next, shadow_count;
-  uint32_t steps;  // the rays of each path so far
-} wave;
-
-// The weight of a sample of density a where the other way to find it has
-// density b.
-static float power_weight(float a, float b) {
-  return b > 0 ? path_weight(b / a) : 1;
-}
-
-static void add(path *p, float weight, vec3 radiance) {
-  p->sum = vec3_mad(p->sum, weight, vec3_mul(p->throughput, radiance));
-}
-
-// The sky, found by a direction.
-static void meet_sky(const wave *w, path *p, const ray *r) {
-  float weight = p->pdf > 0 ? 1 : path_trail_weight(&p->trail, w->steps);
-  if (w->even) {
-    if (vec3_finite(r->d)) add(p, weight, w->sky);
-    return;
-  }
-  vec3 d = vec3_unit(r->d);
-  vec3 sky = env_radiance(&w->by->world->scene->env, d);
-  if (!(vec3_peak(sky) > 0)) return;
-  if (p->pdf > 0)
-    weight = power_weight(p->pdf,
-                          light_pdf_env(w->by->lights, p->from, p->from_n, d));
-  add(p, weight, sky);
-}
-
-// A glowing surface, found by a direction.
-static void meet_glow(const wave *w, path *p, const vertex *v) {
-  vec3 glow = matter_emission(&v->at);
-  if (!(vec3_peak(glow) > 0)) return;
-  float weight = path_trail_weight(&p->trail, w->steps);
-  if (p->pdf > 0)
-    weight = power_weight(p->pdf,
-                          light_pdf_triangle(w->by->lights, p->from, p->from_n,
-                                             v->at.triangle, v->at.p));
-  add(p, weight, glow);
-}
 
 // Sample a light for v; false where none is met.
 static bool look_alone(const wave *w, const stop *s, const bsdf *b,
@@ -127,7 +37,7 @@ static void ask_light(wave *w, const stop *s, const bsdf *b, uint32_t turns) {
                                 found ? m.cosine : 0);
   if (!found) return;
   float scale = m.cosine / (l.pdf * (float)turns);
-  if (!l.delta) scale *= power_weight(l.pdf, m.pdf);
+  if (!l.delta) scale *= wave_weight(l.pdf, m.pdf);
   vec3 lit = vec3_mul(vec3_mul(p->throughput, m.f), l.radiance);
   lit = vec3_scale(lit, scale);
   if (!(vec3_peak(lit) > 0)) {
@@ -184,17 +94,48 @@ static bool scatter(wave *w, const stop *s, const bsdf *b, ray *r) {
 // Perhaps aim at mirrors and glass.
 static void ask_aims(wave *w, const stop *s, const bsdf *b) {
   path *p = &w->paths[s->which];
-  path_stand here = {s->which, s->at, b, p->throughput, p->numbers, p->segment};
+  path_stand here = {s->which,   s->at,      b,       p->throughput,
+                     p->numbers, p->segment, p->scale};
   p->trail = path_aims_ask(w->aims, &here, w->steps);
+}
+
+static float odds_of(const path *p) {
+  return roulette_odds(vec3_scale(p->throughput, p->scale), p->segment);
 }
 
 // Russian roulette.
 static bool survives(path *p, float u) {
-  float q = roulette_odds(p->throughput, p->segment);
+  float q = odds_of(p);
   if (q >= 1) return true;
   if (u >= q) return false;
   p->throughput = vec3_scale(p->throughput, 1 / q);
   return true;
+}
+
+// Whether a vertex is matt, and its normal is not bent for who looks at it.
+static bool is_matt(const vertex *v) {
+  return matter_matt(&v->at) && vec3_dot(v->ns, v->wo) > 0;
+}
+
+// Remember from where a path leaves the first surface that it met.
+static void stand(const wave *w, const stop *s, const bsdf *b) {
+  if (w->shares == NULL || w->steps > 0 || !is_matt(s->at)) return;
+  w->shares->stand[s->which] =
+      (share_stand){.from = surface_smooth_ray(&s->at->at, s->at->ng).o,
+                    .n = s->at->ns,
+                    .albedo = b->kd,
+                    .odds = float_min(odds_of(&w->paths[s->which]), 1)};
+}
+
+// What a path finds from the second one on it may find for all of its group.
+static void share(wave *w, const stop *s) {
+  path_shares *all = w->shares;
+  size_t i = s->which;
+  if (all == NULL || w->steps != 1 || !is_matt(s->at)) return;
+  if (!path_shares_find(all, i, s->at)) return;
+  all->own[i] = wave_take(w, i);
+  w->paths[i].throughput = vec3_all(1);
+  w->paths[i].scale = SHARE_SCALE * vec3_peak(all->stand[i].albedo);
 }
 
 // What is met at a vertex.
@@ -218,7 +159,9 @@ static bool bounce(wave *w, stop *s, ray *r) {
   if (w->aims != NULL && !delta) ask_aims(w, s, &m.bsdf);
   const path_world *world = w->by->world;
   if (world->lamps_only && p->segment + 1 == world->max_depth) return false;
-  if (!scatter(w, s, &m.bsdf, r) || !survives(p, s->u[USE_LIFE])) return false;
+  if (!scatter(w, s, &m.bsdf, r)) return false;
+  stand(w, s, &m.bsdf);
+  if (!survives(p, s->u[USE_LIFE])) return false;
   p->segment++;
   return true;
 }
@@ -243,8 +186,9 @@ static bool step(wave *w, stop *s, ray *r) {
     *r = surface_ray(&s->at->at, r->d);
     goes_on = true;
   } else {
-    if (s->at->at.front) meet_glow(w, p, s->at);
+    if (s->at->at.front) wave_meet_glow(w, p, s->at);
     bool last = world->max_depth > 0 && p->segment >= world->max_depth;
+    if (!last) share(w, s);
     goes_on = !last && bounce(w, s, r);
   }
   if (w->steps + 1 < ROULETTE_MAX_RAYS) return goes_on;
@@ -252,25 +196,10 @@ static bool step(wave *w, stop *s, ray *r) {
   return false;
 }
 
-// The vertices of n hits.
-static void vertices_at(const wave *w, size_t n) {
-  const path_tracer *by = w->by;
-  met *m = w->met;
-  ready_job job = {.scene = by->world->scene,
-                   .lights = w->lit ? by->lights : NULL,
-                   .dimension = 2 + USES * w->steps,
-                   .hits = m->hits,
-                   .rays = m->rays,
-                   .numbers = m->numbers,
-                   .at = m->at,
-                   .ready = m->ready};
-  (by->ready != NULL ? by->ready : path_ready_alone)(&job, n);
-}
-
 // Shade n of the paths whose rays have met a surface.
 static void step_some(wave *w, size_t n) {
   met *m = w->met;
-  vertices_at(w, n);
+  wave_vertices(w, n);
   for (size_t i = 0; i < n; i++) {
     ray r = m->rays[i];
     stop s = path_ready_stop(&m->at[i], &m->ready[i / LANES], (int)(i % LANES));
@@ -290,7 +219,7 @@ static void step_all(wave *w) {
   size_t n = 0;
   for (size_t i = 0; i < w->count; i++) {
     if (w->hits[i].triangle == HIT_NONE) {
-      meet_sky(w, &w->paths[w->alive[i]], &w->rays[i]);
+      wave_meet_sky(w, &w->paths[w->alive[i]], &w->rays[i]);
       continue;
     }
     vertex_expect(w->by->world->scene, w->hits[i].triangle);
@@ -329,6 +258,36 @@ static void light_all(wave *w) {
   }
 }
 
+// Walk n paths to their ends.
+static void walk(wave *w, const path_start *starts, size_t n) {
+  wave_begin(w, starts, n);
+  while (w->count > 0) {
+    step_all(w);
+    light_all(w);
+    if (w->aims != NULL) path_aims_run(w->aims, w->stats);
+    if (w->shares == NULL || w->steps != 2) continue;
+    path_shares_connect(w->shares, &w->by->world->tracer, w->stats);
+  }
+}
+
+// Walk the groups of as many of n paths as there is room for; how many.
+static size_t walk_groups(wave *w, const path_start *starts, size_t n,
+                          vec3 *out) {
+  path_shares *s = w->shares;
+  integrator by = path_integrator(w->by);
+  size_t some = path_groups_seat(&s->groups, w->by->film, &by, starts, n);
+  path_shares_begin(s);
+  walk(w, s->groups.starts, s->groups.count);
+  for (size_t i = 0; i < s->groups.count; i++) {
+    vec3 *to = s->find[i].any ? &s->find[i].radiance : &s->own[i];
+    *to = wave_take(w, i);
+  }
+  for (size_t i = 0; i < s->groups.count; i++)
+    if (s->groups.asked[i] != GROUP_NOBODY)
+      out[s->groups.asked[i]] = path_shares_sum(s, i);
+  return some;
+}
+
 static vec2 path_place(const void *self, uint64_t pixel, uint32_t sample) {
   const path_tracer *by = self;
   sampler s = sampler_of(by->sampler, by->seed, pixel, sample);
@@ -343,8 +302,6 @@ static void path_begin(const void *self, const path_row *row, path_start *out) {
 static void path_radiance(const void *self, const path_start *starts, size_t n,
                           vec3 *out, path_stats *stats, void *room) {
   const path_tracer *by = self;
-  const sampler_kind kind = by->sampler;
-  const uint64_t seed = by->seed;
   wave *w = room;
   w->by = by;
   w->stats = stats;
@@ -355,41 +312,18 @@ static void path_radiance(const void *self, const path_start *starts, size_t n,
   const env *sky = &by->world->scene->env;
   w->even = sky->kind == ENV_CONSTANT && !(by->lights->env.irradiance > 0);
   w->sky = env_radiance(sky, (vec3){0, 1, 0});
-  w->count = n;
-  w->steps = 0;
-  for (size_t i = 0; i < n; i++) {
-    w->paths[i] = (path){
-        .numbers = sampler_of(kind, seed, starts[i].pixel, starts[i].sample),
-        .throughput = vec3_all(1),
-        .segment = 1};
-    w->alive[i] = (uint32_t)i;
-    w->rays[i] = starts[i].ray;
+  if (w->shares != NULL) {
+    for (size_t i = 0; i < n;)
+      i += walk_groups(w, starts + i, n - i, out + i);
+    return;
   }
-  if (w->aims != NULL) path_aims_begin(w->aims, by->aim, by->world, by->gain);
-  while (w->count > 0) {
-    step_all(w);
-    light_all(w);
-    if (w->aims != NULL) path_aims_run(w->aims, stats);
-  }
+  walk(w, starts, n);
   for (size_t i = 0; i < n; i++)
-    out[i] = w->paths[i].sum;
-  if (w->aims != NULL) path_aims_add(w->aims, out, n);
+    out[i] = wave_take(w, i);
 }
 
 static void *path_room(const void *self, arena *mem) {
-  const path_tracer *by = self;
-  const size_t n = INTEGRATOR_BATCH, m = n + n * by->questions;
-  wave *w = ARENA_NEW(mem, wave, 1);
-  w->paths = ARENA_NEW(mem, path, n);
-  w->alive = ARENA_NEW(mem, uint32_t, n);
-  w->rays = ARENA_NEW(mem, ray, n);
-  w->shadow_rays = ARENA_NEW(mem, ray, m);
-  w->hits = ARENA_NEW(mem, hit, n);
-  w->shadows = ARENA_NEW(mem, shadow, m);
-  w->blocked = ARENA_NEW(mem, bool, m);
-  w->met = ARENA_NEW(mem, met, 1);
-  if (by->aim != NULL) w->aims = path_aims_room(mem);
-  return w;
+  return wave_room(self, mem);
 }
 
 integrator path_integrator(const path_tracer *p) {

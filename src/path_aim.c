@@ -78,7 +78,7 @@ path_trail path_aims_ask(path_aims *a, const path_stand *s, uint32_t rays) {
   if (most > 0 && s->segment + 2 > most) return t;
   t.cell = aim_at(a->map, s->at->at.p, s->at->n);
   if (t.cell == NULL) return t;
-  float throughput = vec3_peak(s->throughput);
+  float throughput = s->scale * vec3_peak(s->throughput);
   t.asked = aim_asked(a->map, t.cell, throughput);
   if (!(t.asked > 0)) return (path_trail){.rays = rays};
   if (a->gain != NULL)
@@ -158,7 +158,8 @@ void path_aims_run(path_aims *a, path_stats *stats) {
   }
 }
 
-void path_aims_add(const path_aims *a, vec3 *paths, size_t n) {
-  for (size_t i = 0; i < n; i++)
-    paths[i] = vec3_add(paths[i], a->found[i]);
+vec3 path_aims_take(path_aims *a, size_t path) {
+  vec3 sum = a->found[path];
+  a->found[path] = vec3_all(0);
+  return sum;
 }

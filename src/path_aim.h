@@ -39,6 +39,7 @@ typedef struct path_stand {
   vec3 throughput;
   sampler numbers;
   int segment;
+  float scale;  // of the throughput, for how many rays it is worth
 } path_stand;
 
 // Aimed rays on their way, of one worker.
@@ -59,7 +60,7 @@ path_trail path_aims_ask(path_aims *a, const path_stand *s, uint32_t rays);
 // Follow all of them to their ends.
 void path_aims_run(path_aims *a, path_stats *stats);
 
-// Add what they brought to the n paths of the batch.
-void path_aims_add(const path_aims *a, vec3 *paths, size_t n);
+// What they have brought to a path since this was last asked.
+vec3 path_aims_take(path_aims *a, size_t path);
 
 #endif

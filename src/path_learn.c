@@ -22,14 +22,14 @@ enum { LEAST_RECORDS = 1000 };
 // What the threads share: a worker's room and a log for each batch.
 typedef struct school_job {
   const path_tracer *by;
-  const path_lesson *lesson;
+  const path_film *lesson;
   path_log *logs;
   void **rooms;
   size_t paths, from, to;  // all of them; those of this lesson
 } school_job;
 
-path_start path_lesson_start(const path_lesson *l, const integrator *by,
-                             uint64_t i, uint64_t paths) {
+path_start path_learn_start(const path_film *l, const integrator *by,
+                            uint64_t i, uint64_t paths) {
   uint64_t pixels = (uint64_t)l->width * (uint64_t)l->height;
   uint64_t pixel = i * pixels / paths;
   vec2 at = by->place(by->self, i, 0);
@@ -50,7 +50,7 @@ static void walk(void *context, size_t item, int worker) {
   size_t first = job->from + item * INTEGRATOR_BATCH, n = job->to - first;
   if (n > INTEGRATOR_BATCH) n = INTEGRATOR_BATCH;
   for (size_t i = 0; i < n; i++)
-    starts[i] = path_lesson_start(job->lesson, &by, first + i, job->paths);
+    starts[i] = path_learn_start(job->lesson, &by, first + i, job->paths);
   by.radiance(by.self, starts, n, colors, &stats, job->rooms[worker]);
 }
 
@@ -100,7 +100,7 @@ static void make_rooms(school_job *job, arena *mem, const pool *threads) {
 }
 
 bool path_learn(light_set *lights, const path_tracer *by,
-                const path_lesson *lesson, arena *mem, pool *threads) {
+                const path_film *lesson, arena *mem, pool *threads) {
   light_memory *memory = ARENA_NEW(mem, light_memory, 1);
   if (!new_memory(memory, lights, mem)) return false;
   arena scratch = {0};

@@ -17,7 +17,7 @@ static void mirror_walker(walker *k, world *w, vec3 eye, vec3 target) {
 
 static bool learn(walker *k, pool *threads) {
   camera_view view;
-  path_lesson lesson = walker_lesson(k, &view);
+  path_film lesson = walker_lesson(k, &view);
   k->tracer.aim = aim_learn(&k->tracer, &lesson, k->mem, threads);
   return k->tracer.aim != NULL;
 }

@@ -43,7 +43,7 @@ static void corner_walker(walker *k, world *w) {
 
 static bool learn(walker *k, pool *threads) {
   camera_view view;
-  path_lesson lesson = walker_lesson(k, &view);
+  path_film lesson = walker_lesson(k, &view);
   return path_learn(&k->lights, &k->tracer, &lesson, k->mem, threads);
 }
 

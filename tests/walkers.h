@@ -38,10 +38,10 @@ static inline camera_view walker_view(const walker *k, int times) {
 
 // A lesson of as many paths as those of a larger picture, by a view that lives
 // as long as it is needed.
-static inline path_lesson walker_lesson(const walker *k, camera_view *view) {
+static inline path_film walker_lesson(const walker *k, camera_view *view) {
   enum { TIMES = 4 };
   *view = walker_view(k, TIMES);
-  return (path_lesson){view, TIMES * k->width, TIMES * k->height};
+  return (path_film){view, TIMES * k->width, TIMES * k->height};
 }
 
 // A picture with its variance.

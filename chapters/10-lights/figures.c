@@ -8,6 +8,7 @@
 #include "metric.h"
 #include "num.h"
 #include "render.h"
+#include "share_learn.h"
 #include "vertex.h"
 
 #include <stdio.h>
@@ -587,7 +588,7 @@ static void draw_memory(output *o) {
   path_tracer by = {.world = &s->world, .lights = &s->lights, .seed = 1};
   camera_view v =
       view_of((vec3){1.5f, 1.2f, 1.8f}, (vec3){-0.9f, 0.7f, -1}, 60, 238, 160);
-  path_lesson lesson = {&v, 238, 160};
+  path_film lesson = {&v, 238, 160};
   image parts[2] = {render_room(o, s, &by, 8)};
   if (!path_learn(&s->lights, &by, &lesson, &o->mem, o->threads))
     printf("nothing was learned\n");
@@ -601,6 +602,31 @@ static void draw_memory(output *o) {
   }
   image all = row_of(&o->mem, parts, 2);
   publish(o->folder, "memory", all);
+}
+
+// The same time of paths that walk alone and of such that share.
+static void draw_neighbours(output *o) {
+  stage *s = dim_room(o);
+  path_tracer by = {.world = &s->world, .lights = &s->lights, .seed = 1};
+  camera_view v =
+      view_of((vec3){1.5f, 1.2f, 1.8f}, (vec3){-0.9f, 0.7f, -1}, 60, 238, 160);
+  path_film all_of = {&v, 238, 160};
+  path_learn(&s->lights, &by, &all_of, &o->mem, o->threads);
+  double start = clock_seconds();
+  image parts[2] = {render_room(o, s, &by, 8)};
+  double alone = clock_seconds() - start;
+  start = clock_seconds();
+  if (share_learn(&by, &all_of, o->threads)) by.film = &all_of;
+  parts[1] = render_room(o, s, &by, 7);
+  printf("alone %.2f s, shared %.2f s\n", alone, clock_seconds() - start);
+  by.seed = 0;
+  image truth = render_room(o, s, &by, 128);
+  for (int i = 0; i < 2; i++) {
+    print_error(i == 0 ? "alone" : "shared", &parts[i], &truth, o);
+    parts[i] = expose(parts[i], 0.4f);
+  }
+  image all = row_of(&o->mem, parts, 2);
+  publish(o->folder, "neighbours", all);
 }
 
 // The balls of the Cornell box and what is below them.
@@ -634,7 +660,7 @@ static void draw_glass(output *o) {
   double start = clock_seconds();
   image parts[2] = {render_balls(o, s, &by, 16)};
   double plain = clock_seconds() - start;
-  path_lesson lesson = {&v, 400, 400};
+  path_film lesson = {&v, 400, 400};
   start = clock_seconds();
   by.aim = aim_learn(&by, &lesson, &o->mem, o->threads);
   double learned = clock_seconds() - start;
@@ -723,6 +749,7 @@ int main(int argc, char **argv) {
   draw_shadow(&o);
   draw_memory(&o);
   draw_glass(&o);
+  draw_neighbours(&o);
   print_times(&o);
   pool_free(o.threads);
   arena_free(&o.mem);

@@ -139,7 +139,7 @@ static bool bench(const char *path, error *err) {
   if (!set_load(s, path, err)) return false;
   path_tracer by = {
       .world = &s->world, .lights = &s->lights, .ready = ready_best()};
-  path_lesson lesson = {&s->view, s->scene.film_width, s->scene.film_height};
+  path_film lesson = {&s->view, s->scene.film_width, s->scene.film_height};
   path_learn(&s->lights, &by, &lesson, &s->mem, NULL);
   by.aim = aim_learn(&by, &lesson, &s->mem, NULL);
   const char *slash = strrchr(path, '/'), *list = getenv("SIMD");

@@ -1,0 +1,85 @@
+// path_wave.h — many paths that take their steps together: what there is of
+// them between two steps, and the light that their rays meet.
+
+#ifndef PATH_WAVE_H
+#define PATH_WAVE_H
+
+#include "path_tracer.h"
+
+// A path between two waves.
+typedef struct path {
+  sampler numbers;
+  vec3 sum, throughput;
+  vec3 from, from_n;  // where the last direction was sampled, and the normal
+  float pdf;          // of that direction; 0 where only a delta could give it
+  float scale;        // of the throughput, for who decides by it
+  int segment, inside;
+  path_trail trail;
+} path;
+
+// Rays that have met a surface, and where: few enough for the fastest cache.
+enum { MET = 64 };
+
+typedef struct met {
+  uint32_t which[MET];
+  ray rays[MET];
+  hit hits[MET];
+  sampler numbers[MET];
+  vertex at[MET];
+  path_ready ready[MET / LANES];
+} met;
+
+// A light sample on its way through the scene: what it brings if nothing is in
+// between, to which path; and for sheets, from where to where.
+typedef struct shadow {
+  uint32_t path;
+  vec3 lit;
+  light_ray to;
+  surface from;
+  size_t record;  // in the log; PATH_NO_RECORD: none
+} shadow;
+
+// The room of one worker: paths, those still on their way with their rays, and
+// the light samples of this wave.
+typedef struct wave {
+  const path_tracer *by;
+  path_stats *stats;
+  bool sheets, lights;  // whether there are any
+  bool lit;             // whether ready knows of lights
+  bool even;            // whether the sky is, and found by chance alone
+  vec3 sky;
+  path *paths;
+  uint32_t *alive;
+  ray *rays, *shadow_rays;
+  hit *hits;
+  shadow *shadows;
+  bool *blocked;
+  met *met;
+  path_aims *aims;      // NULL: no ray is aimed
+  path_shares *shares;  // NULL: nothing is shared
+  size_t count, next, shadow_count;
+  uint32_t steps;  // the rays of each path so far
+} wave;
+
+// The weight of a sample of density a where the other way to find it has
+// density b.
+static inline float wave_weight(float a, float b) {
+  return b > 0 ? path_weight(b / a) : 1;
+}
+
+wave *wave_room(const path_tracer *by, arena *mem);
+
+// Begin with n paths, those of pixel GROUP_NO_PIXEL left out.
+void wave_begin(wave *w, const path_start *starts, size_t n);
+
+// The sky, found by the ray of a path; a glowing surface.
+void wave_meet_sky(const wave *w, path *p, const ray *r);
+void wave_meet_glow(const wave *w, path *p, const vertex *v);
+
+// The vertices of the first n rays and hits of w->met.
+void wave_vertices(const wave *w, size_t n);
+
+// What path number i has brought since it was last asked.
+vec3 wave_take(wave *w, size_t i);
+
+#endif
