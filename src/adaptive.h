@@ -17,16 +17,19 @@ typedef struct adaptive_settings {
 } adaptive_settings;
 
 // The samples of its pixels are to come from a halves_integrator.  A tile's
-// numbers of samples are a function of its samples and of the round; rounds
-// depend on the whole picture, and only where there is a deadline on time.
+// numbers of samples are a function of the round and of its samples when the
+// first tile got more than others; rounds depend on the whole picture, and only
+// where there is a deadline on time.
 adaptive *adaptive_new(const adaptive_settings *s, arena *mem);
 
 render_guide adaptive_guide(adaptive *a);
 
 // How far a tile is.
 typedef struct adaptive_tile {
-  uint32_t taken[2], round[2];  // samples of each half: now, at the round's end
+  // Samples of a black and a white pixel: now, and at the round's end.
+  uint32_t taken[2], round[2];
   uint64_t rays;
+  double need[2];  // of both; 0 where nobody was asked yet
 } adaptive_tile;
 
 // Between two passes: what there is of each tile, row by row, and the sums.

@@ -79,18 +79,30 @@ vec3 halves_variance(const halves *h, size_t i) {
   return vec3_scale(vec3_add(a, b), 0.25f);
 }
 
+void halves_means(const halves *h, size_t i, int channel, double out[2]) {
+  for (int k = 0; k < 2; k++) {
+    double n = (double)h->half[k].count[i];
+    out[k] = n > 0 ? h->half[k].sum[i][channel] / n : 0;
+  }
+}
+
 static bool halves_pixel(const void *self, size_t i, two_means_pixel *out) {
   const halves *h = self;
-  double n = (double)h->half[0].count[i], m = (double)h->half[1].count[i];
-  if (n < 1 || m < 1) return false;
+  if (h->half[0].count[i] == 0 || h->half[1].count[i] == 0) return false;
   for (int c = 0; c < 3; c++) {
-    out->a[c] = h->half[0].sum[i][c] / n;
-    out->b[c] = h->half[1].sum[i][c] / m;
+    double m[2];
+    halves_means(h, i, c, m);
+    out->a[c] = m[0];
+    out->b[c] = m[1];
   }
   return true;
 }
 
-double halves_error(const halves *h, pool *threads) {
+// The root's relative error is half of that of its square; and what is printed
+// misses what is by 4 / 3 as much variance as its own.
+halves_estimate halves_error(const halves *h, pool *threads) {
   two_means t = {h->half[0].width, h->half[0].height, h, halves_pixel};
-  return sqrt(two_means_measure(&t, threads).square);
+  two_means_sums s = two_means_measure(&t, threads);
+  if (!(s.square > 0)) return (halves_estimate){0, 0};
+  return (halves_estimate){sqrt(s.square), s.doubt / s.square / sqrt(3)};
 }

@@ -30,7 +30,15 @@ void halves_add(halves *h, size_t i, uint32_t sample, vec3 color);
 vec3 halves_mean(const halves *h, size_t i);
 vec3 halves_variance(const halves *h, size_t i);
 
-// The relative error of the picture; 0 where no pixel has both means.
-double halves_error(const halves *h, pool *threads);
+// The two means of a channel; 0 where there is no sample.
+void halves_means(const halves *h, size_t i, int channel, double out[2]);
+
+// The relative error of the picture, and how well that is known: its standard
+// error, as a share of it.  Both 0 where no pixel has both means.
+typedef struct halves_estimate {
+  double error, doubt;
+} halves_estimate;
+
+halves_estimate halves_error(const halves *h, pool *threads);
 
 #endif

@@ -125,6 +125,8 @@ static void put_row(uint8_t **at, const part_tile *t) {
   for (int i = 0; i < 5; i++)
     bytes_put_u32(at, words[i]);
   bytes_put_u64(at, s->rays);
+  bytes_put_f64(at, s->need[0]);
+  bytes_put_f64(at, s->need[1]);
   bytes_put_u64(at, t->digest);
 }
 

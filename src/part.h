@@ -10,7 +10,8 @@
 //     its pixel; u64 number of tiles
 //   the key
 //   u64 digest of all that
-//   for each tile u32 number, taken and round of two halves; u64 rays, digest
+//   for each tile u32 number, taken and round of two colors; u64 rays, f64
+//     need of both, u64 digest
 //   u64 digest of this table
 //   for each tile, for each film, for each pixel: 3 f64 sums, 3 f64 sums of
 //     squares (radiance only), u32 count; of PART_MARKS 6 f32
@@ -24,7 +25,7 @@
 
 // How a file starts, and another number when the layout changes.
 #define PART_MAGIC "FACETPRT"
-enum { PART_FORMAT = 1 };
+enum { PART_FORMAT = 2 };
 
 // Limits: bytes of a key, shards, samples of a pixel.
 enum { PART_KEY_MAX = 8192, PART_SHARDS_MAX = 1000000, PART_SPP_MAX = 1 << 30 };
@@ -35,7 +36,7 @@ enum {
   PART_HEAD_WORDS = 14,
   PART_HEAD_COUNTS = 7,
   PART_HEAD_BYTES = 12 + 4 * PART_HEAD_WORDS + 4 + 8 * PART_HEAD_COUNTS,
-  PART_ROW_BYTES = 36
+  PART_ROW_BYTES = 52
 };
 
 // Its films, and bits of part.films.  A picture in halves has no PART_COLOR.
@@ -51,7 +52,7 @@ enum {
 };
 
 // A tile of the window.  Where samples are not in two halves, only the first
-// number of each pair counts.
+// number of each pair counts, and need is 0.
 typedef struct part_tile {
   uint32_t number;
   adaptive_tile state;

@@ -126,7 +126,9 @@ static bool row_fits(const part *p, size_t i) {
   bool in_halves = (p->films >> PART_EVEN & 1) != 0;
   if (t->number != shard_tile(&all, i)) return false;
   for (int k = 0; k < 2; k++)
-    if (s->taken[k] > PART_SPP_MAX || s->round[k] > PART_SPP_MAX) return false;
+    if (s->taken[k] > PART_SPP_MAX || s->round[k] > PART_SPP_MAX ||
+        !(s->need[k] >= 0 && s->need[k] < (double)INFINITY))
+      return false;
   if (in_halves)
     return s->taken[0] <= s->round[0] && s->taken[1] <= s->round[1];
   return s->taken[0] == p->tiles[0].state.taken[0] && s->taken[1] == 0;
@@ -139,6 +141,8 @@ static void parse_row(part_tile *t, const uint8_t *at) {
   t->state.round[0] = bytes_get_u32(&at);
   t->state.round[1] = bytes_get_u32(&at);
   t->state.rays = bytes_get_u64(&at);
+  t->state.need[0] = bytes_get_f64(&at);
+  t->state.need[1] = bytes_get_f64(&at);
   t->digest = bytes_get_u64(&at);
 }
 
@@ -231,12 +235,10 @@ static bool get_tile(part *p, const part_tile *t, const uint8_t *at) {
   shard s = part_shard(p);
   film_box b = shard_box(&s, t->number);
   const uint32_t *taken = t->state.taken;
+  uint32_t most = taken[0] > taken[1] ? taken[0] : taken[1];
   bool ok = true;
   for (int i = 0; i < PART_FILMS; i++) {
     if ((p->films >> i & 1) == 0) continue;
-    uint32_t most = taken[0] + taken[1];
-    if (i == PART_EVEN) most = taken[0];
-    if (i == PART_ODD) most = taken[1];
     ok = get_film(&p->film[i], &b, most, &at) && ok;
   }
   if (p->films >> PART_MARKS & 1) ok = get_marks(p, &b, &at) && ok;

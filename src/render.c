@@ -78,20 +78,28 @@ static bool wants_first(const render_settings *s) {
 
 _Static_assert((int)TILE <= (int)PATH_ROW, "a row of a tile is a path_row");
 
-// Take up the sample of the given number of pixels (x0, y) to (x1 - 1, y) of
-// the window.
-static void start_row(const job *j, int x0, int x1, int y, uint32_t sample,
-                      worker *w) {
+static bool has_turn(const render_turn *turn, int x, int y) {
+  return turn->color == RENDER_BOTH_COLORS || ((x ^ y) & 1) == turn->color;
+}
+
+// Take up the sample of those of pixels (x0, y) to (x1 - 1, y) of the window
+// whose turn it is.
+static void start_row(const job *j, int x0, int x1, int y,
+                      const render_turn *turn, worker *w) {
   size_t i = (size_t)y * (size_t)j->width + (size_t)x0;
   path_row row = {.view = j->view,
                   .x = x0 + j->x0,
                   .y = y + j->y0,
                   .count = x1 - x0,
-                  .sample = sample};
+                  .sample = turn->sample};
   row.pixel = (uint64_t)row.y * (uint64_t)j->set->width + (uint64_t)row.x;
-  integrator_begin(&j->by, &row, w->starts + w->count);
-  for (int k = 0; k < row.count; k++)
+  path_start *starts = w->starts + w->count;
+  integrator_begin(&j->by, &row, starts);
+  for (int k = 0; k < row.count; k++) {
+    if (!has_turn(turn, x0 + k, y)) continue;
+    w->starts[w->count] = starts[k];
     w->pixels[w->count++] = i + (size_t)k;
+  }
 }
 
 // Finish what the worker has taken up, in that order.
@@ -157,22 +165,23 @@ static void tell_progress(job *j, double now) {
   j->set->progress(j->set->progress_context, &p);
 }
 
-// The next sample that every pixel of a tile gets in this pass.
-static bool next_sample(const job *j, size_t tile, uint32_t *at,
-                        uint32_t *sample) {
+// The next sample of a tile's pixels in this pass.
+static bool next_turn(const job *j, size_t tile, uint32_t *at,
+                      render_turn *turn) {
   const render_guide *g = j->set->guide;
-  if (g != NULL && g->next != NULL) return g->next(g->self, tile, at, sample);
-  *sample = (uint32_t)j->begin + (*at)++;
-  return *sample < (uint32_t)j->end;
+  if (g != NULL && g->next != NULL) return g->next(g->self, tile, at, turn);
+  *turn = (render_turn){(uint32_t)j->begin + (*at)++, RENDER_BOTH_COLORS};
+  return turn->sample < (uint32_t)j->end;
 }
 
 // The samples of this pass in one tile; a few may be left taken up.
 static void render_tile(job *j, size_t tile, worker *w) {
   film_box box = shard_box(&j->shard, tile);
-  uint32_t at = 0, sample;
-  while (next_sample(j, tile, &at, &sample)) {
+  uint32_t at = 0;
+  render_turn turn;
+  while (next_turn(j, tile, &at, &turn)) {
     for (int y = box.y0; y < box.y1; y++)
-      start_row(j, box.x0, box.x1, y, sample, w);
+      start_row(j, box.x0, box.x1, y, &turn, w);
     if (w->count + TILE * TILE > INTEGRATOR_BATCH) end_samples(j, w);
   }
 }

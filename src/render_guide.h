@@ -19,6 +19,14 @@ typedef struct render_budget {
   double left;  // before the deadline; INFINITY without one
 } render_budget;
 
+// One sample of each pixel of a tile, or of those of one colour, as a
+// chessboard has them: (x + y) mod 2, x and y in the window.
+enum { RENDER_BOTH_COLORS = 2 };
+typedef struct render_turn {
+  uint32_t sample;
+  int color;  // 0, 1 or RENDER_BOTH_COLORS
+} render_turn;
+
 // Members may be NULL: without plan, every pixel gets the same samples; without
 // mean, a pixel is the mean of its samples.  Pixels are numbered in the window.
 typedef struct render_guide {
@@ -26,9 +34,9 @@ typedef struct render_guide {
   // Plan a pass; how many samples it has, 0 when it is enough.  No other call
   // is under way.
   double (*plan)(void *self, const render_budget *b);
-  // The next sample that every pixel of the tile gets in this pass; false when
-  // the tile is done.  *at is 0 at first and the guide's after that.
-  bool (*next)(void *self, size_t tile, uint32_t *at, uint32_t *sample);
+  // The next turn of the tile in this pass; false when the tile is done.  *at
+  // is 0 at first and the guide's after that.
+  bool (*next)(void *self, size_t tile, uint32_t *at, render_turn *turn);
   // Told of every sample by the worker that has the tile.
   void (*add)(void *self, size_t pixel, uint32_t sample, vec3 color);
   // Told after a pass how many rays the tile's paths took.

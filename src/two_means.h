@@ -27,6 +27,7 @@ typedef struct two_means {
 typedef struct two_means_sums {
   double square;  // x = ((a - b) / 2)^2: estimates relMSE of (a + b) / 2
   double other;   // x = other
+  double doubt;   // the standard error of square
 } two_means_sums;
 
 // Both 0 when no pixel has two means.

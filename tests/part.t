@@ -235,20 +235,20 @@ def digest(data, d=0x66616365742e3136):
 data = open("o.part", "rb").read()
 assert data[:8] == b"FACETPRT"
 form, w, h, x0, y0, x1, y1, shard, shards, spp, complete, films, aovs, radiance, length = struct.unpack_from("<15I", data, 8)
-assert (form, w, h, x1, y1, shard, shards, spp, complete, films) == (1, 72, 40, 72, 40, 0, 1, 3, 1, 1 | 64)
+assert (form, w, h, x1, y1, shard, shards, spp, complete, films) == (2, 72, 40, 72, 40, 0, 1, 3, 1, 1 | 64)
 *counts, tiles = struct.unpack_from("<7Q", data, 72)
 assert counts[2] == 3 * w * h and tiles == 5 * 3
 key = data[128:128 + length]
 assert key.startswith(b"version ")
 assert struct.unpack_from("<Q", data, 128 + length)[0] == digest(data[:128 + length])
 at = 128 + length + 8
-table = data[at:at + 36 * tiles]
-assert struct.unpack_from("<Q", data, at + 36 * tiles)[0] == digest(table)
-at += 36 * tiles + 8
+table = data[at:at + 52 * tiles]
+assert struct.unpack_from("<Q", data, at + 52 * tiles)[0] == digest(table)
+at += 52 * tiles + 8
 subprocess.check_call([sys.argv[1], "merge", "-q", "o.part", "-o", "o.pfm"])
 floats = array.array("f", open("o.pfm", "rb").read().split(b"\n", 3)[3])
 for t in range(tiles):
-    number, taken, _, _, _, _, seal = struct.unpack_from("<5I2Q", table, 36 * t)
+    number, taken, _, _, _, _, _, _, seal = struct.unpack_from("<5IQ2dQ", table, 52 * t)
     left, top = number % 5 * 16, number // 5 * 16
     across, down = min(16, w - left), min(16, h - top)
     assert number == t and taken == 3 and seal == digest(data[at:at + across * down * 76])

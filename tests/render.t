@@ -150,7 +150,7 @@ ok "--error ends when it is small" sh -c "
   '$facet' render -q $path a.obj -r 48x32 --error 0.05 --json -o error.png | python3 -c '
 import json, sys
 j = json.load(sys.stdin)
-assert 0 < j[\"error\"] <= 0.05 and j[\"spp\"] >= 16, j'"
+assert 0 < j[\"error\"] <= 0.05 and j[\"spp\"] >= 4, j'"
 
 for threads in 1 2 7; do
   "$facet" render -q $path a.obj -r 40x24 --error 0.005 -j $threads --aov samples -o e$threads.pfm

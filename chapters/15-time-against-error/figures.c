@@ -105,7 +105,7 @@ static void draw_estimates(output *o) {
     x[k] = n;
     y[0][k] = film_error(&f) / whole;
     y[1][k] = d.error(d.self, NULL) / whole;
-    y[2][k] = halves_error(&h, NULL) / edge_error(mean_of_halves, &h);
+    y[2][k] = halves_error(&h, NULL).error / edge_error(mean_of_halves, &h);
     printf("%4u samples: variance %.3f, doubling %.3f, halves %.3f of the true "
            "error\n",
            n, y[0][k], y[1][k], y[2][k]);
@@ -125,8 +125,8 @@ static void draw_estimates(output *o) {
   publish_plot(o, "estimates", &p);
 }
 
-// A tile of 16 pixels that shines once in 256 samples, then with 256: how many
-// of n samples do, and their mean.
+// A tile of 16 pixels in two parts, that shines once in 256 samples, then with
+// 256: how many of n samples do, and their mean.
 typedef struct sparks {
   rng random;
   uint32_t taken, met;
@@ -149,8 +149,8 @@ static uint32_t sparks_wanted(const sparks *s, double price) {
   return (uint32_t)fmin(fmax(n, 128), 2048);
 }
 
-// Averages over many tiles: of the mean, where each half decides for itself
-// and where the other one does, and of the samples a pixel.
+// Averages over many tiles: of the mean, where each part decides for itself
+// and where the others do, and of the samples a pixel.
 static void spark_means(double price, double own_and_other[2], double *spp) {
   enum { TILES = 40000 };
   double sum[2] = {0, 0}, samples = 0;
@@ -176,12 +176,12 @@ static void draw_bias(output *o) {
   for (int k = 0; k < STEPS; k++) {
     spark_means(pow(2, k) * 2, mean, &x[k]);
     y[0][k] = mean[0], y[1][k] = mean[1];
-    printf("%5.1f samples: own decision %.4f, the other half's %.4f\n", x[k],
+    printf("%5.1f samples: own decision %.4f, the others' %.4f\n", x[k],
            mean[0], mean[1]);
   }
   plot_series series[] = {{"decides for itself", plot_color(1), PLOT_DISC,
                            .n = STEPS, .x = x, .y = y[0]},
-                          {"the other half decides", plot_color(0), PLOT_SQUARE,
+                          {"the others decide", plot_color(0), PLOT_SQUARE,
                            .n = STEPS, .x = x, .y = y[1]}};
   plot p = {.width = 460,
             .height = 260,
@@ -236,7 +236,7 @@ static void draw_samples(output *o) {
         continue;
       }
       int i = y * GARDEN_WIDTH + u;
-      double n = log2((double)r.aov[4].pixels[i].x / 16) / 3;
+      double n = log2((double)r.aov[4].pixels[i].x / 8) / 4;
       *p = x < GARDEN_WIDTH ? vec3_scale(r.color.pixels[i], gain)
                             : vec3_all((float)srgb_decode(fmin(n, 1)));
     }

@@ -7,7 +7,8 @@ Needs `pip install mitsuba numpy`, and an LLVM of 17 or later for the fast
 variant (libllvm19).  Prints, for balls, lump, room and cornell-balls, the
 median seconds to render and relMSE = mean((x - ref)^2 / (ref^2 + 0.01)) of
 both at each number of samples, and then the seconds to each error, between
-the measured points.  With --whole these are seconds of whole processes, from
+the measured points.  Beside them facet --error, asked for the root of each mark:
+its seconds and the relMSE that it came to.  With --whole these are seconds of whole processes, from
 reading files to a file written, where what both keep on disk for their next
 run is there.  With --z-test instead: do both converge to the same
 picture?  Each renders with --parts seeds; their means' difference over its
@@ -197,8 +198,12 @@ def by_mitsuba(scene, spp, seed):
     return picture, time.perf_counter() - start
 
 
-def by_facet(facet, path, spp, seed, out):
-    said = subprocess.run([facet, "render", path, "--engine", "path", "--spp", str(spp), "--seed", str(seed),
+def limit(spp, error):
+    return ["--spp", str(spp)] if error is None else ["--error", str(error)]
+
+
+def by_facet(facet, path, spp, seed, out, error=None):
+    said = subprocess.run([facet, "render", path, "--engine", "path", *limit(spp, error), "--seed", str(seed),
                            "--max-depth", str(DEPTH), "-o", out, "-q", "--json"], check=True, capture_output=True)
     return read_pfm(out), json.loads(said.stdout)["seconds"]["render"]
 
@@ -209,8 +214,8 @@ def seconds_of(command):
     return time.perf_counter() - start
 
 
-def facet_whole(facet, path, spp, seed, out):
-    seconds = seconds_of([facet, "render", path, "--engine", "path", "--spp", str(spp), "--seed", str(seed),
+def facet_whole(facet, path, spp, seed, out, error=None):
+    seconds = seconds_of([facet, "render", path, "--engine", "path", *limit(spp, error), "--seed", str(seed),
                           "--max-depth", str(DEPTH), "-q", "-o", out])
     return read_pfm(out), seconds
 
@@ -231,6 +236,19 @@ def competitors(path, scene, options):
     file = write_scene(path)
     return {"facet": lambda spp, seed: facet_whole(options.facet, path, spp, seed, out),
             "mitsuba": lambda spp, seed: mitsuba_whole(file, spp, exr)}
+
+
+def print_adaptive(name, path, mark, reference, options):
+    """What facet --error needs for a mark, and what it comes to."""
+    out = str(options.folder / "peers.pfm")
+    draw = facet_whole if options.whole else by_facet
+    rows = []
+    for k in range(options.repeat):
+        picture, seconds = draw(options.facet, path, None, 100 + k, out, math.sqrt(mark))
+        rows.append((seconds, error_of(picture, reference)))
+    seconds, error = (statistics.median(r[i] for r in rows) for i in range(2))
+    print("%-14s relMSE %-6g facet --error %.4f: %8.4f s  relMSE %.3e" % (name, mark, math.sqrt(mark), seconds, error),
+          flush=True)
 
 
 def error_of(picture, reference):
@@ -276,6 +294,8 @@ def compare(name, options):
         ours, theirs = seconds_to(curve["facet"], mark), seconds_to(curve["mitsuba"], mark)
         if ours and theirs:
             print("%-14s relMSE %-6g facet %8.4f s  mitsuba %8.4f s  ratio %.2f" % (name, mark, ours, theirs, theirs / ours))
+    for mark in options.marks:
+        print_adaptive(name, path, mark, reference, options)
 
 
 def parts_of(draw, parts):
