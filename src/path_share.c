@@ -27,14 +27,15 @@ static bool faces(const share_stand *from, const share_find *to) {
 // Its density per area of what is found, times pi.
 static float density(const share_stand *from, const share_find *to) {
   vec3 d = vec3_sub(to->p, from->from);
-  float square = vec3_dot(d, d);
-  return vec3_dot(from->n, d) * -vec3_dot(to->ng, d) / (square * square);
+  float square = vec3_dot(d, d);  // whose square small scenes do not have
+  return vec3_dot(from->n, d) / square * (-vec3_dot(to->ng, d) / square);
 }
 
 bool path_shares_find(path_shares *s, size_t i, const vertex *at) {
   share_find f = {.p = at->at.p, .n = at->ns, .ng = at->ng};
   f.weight[i % GROUP] = density(&s->stand[i], &f);
-  f.any = faces(&s->stand[i], &f) && f.weight[i % GROUP] > 0;
+  f.any = faces(&s->stand[i], &f) && f.weight[i % GROUP] > 0 &&
+          isfinite(f.weight[i % GROUP]);
   s->find[i] = f;
   return f.any;
 }
