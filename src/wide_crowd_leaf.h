@@ -51,12 +51,26 @@ SIMD void crowd_tests(leaf_tests *of, const crowd *q, uint32_t i) {
   pending_corners(&of->at, p, i);
 }
 
+// The axes, turned so that axis kz comes last.
+static const uint32_t turned_axes[3][3] = {{1, 2, 0}, {2, 0, 1}, {0, 1, 2}};
+
 // Candidate number i, which single precision does not decide.
 SIMD bool crowd_unsure(const crowd *q, uint32_t i, bool close) {
   const pending *p = &q->pending;
-  wide_walk w;
+  const crowd_ray *n = &q->at_node[p->flight[i]];
+  const crowd_shear *s = &q->at_leaf[p->flight[i]];
+  wide_walk w = {.sx = s->sx, .sy = s->sy, .sz = s->sz};
+  for (int k = 0; k < 3; k++) {
+    bool back = n->inv[k] < 0;
+    w.inv[k] = n->inv[k];
+    w.enter[k] = back ? n->down[k] : n->up[k];
+    w.leave[k] = back ? n->up[k] : n->down[k];
+    w.side[k] = back ? WIDE : 0;
+    w.axis[k] = turned_axes[s->kz][k];
+  }
+  w.large = q->s->t->large;
+  w.r = &q->s->rays[q->first + p->flight[i]];
   hit h;
-  walk_start(&w, q->s->t, &q->s->rays[q->first + p->flight[i]]);
   return leaf_one(&w, &(leaf_triangle){&p->corner[0][i], PENDING}, close, &h);
 }
 
@@ -84,7 +98,6 @@ SIMD void crowd_settle(crowd *q) {
 
 // The rays of a part at its leaf.
 SIMD void crowd_leaf(crowd *q, const crowd_part *at) {
-  static const uint32_t turned[3][3] = {{1, 2, 0}, {2, 0, 1}, {0, 1, 2}};
   uint32_t n = wide_leaf_count(at->child);
   const uint32_t *leaf =
       q->s->t->triangles + 10 * (size_t)wide_leaf_first(at->child);
@@ -96,7 +109,7 @@ SIMD void crowd_leaf(crowd *q, const crowd_part *at) {
     leaf_rays r = {{f8_all(s->o[0]), f8_all(s->o[1]), f8_all(s->o[2])},
                    f8_all(s->sx),
                    f8_all(s->sy)};
-    corners_load(&corners, leaf, n, turned[s->kz]);
+    corners_load(&corners, leaf, n, turned_axes[s->kz]);
     uint32_t m = leaf_edges(&c, &r, &corners) & ((1u << n) - 1);
     if (m == 0) continue;
     m &= ~leaf_behind(&c, f8_all(s->sz));

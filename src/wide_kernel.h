@@ -59,12 +59,10 @@ static void kernel_any_many(const void *tree, const ray *rays, bool *blocked,
   s.rays = rays;
   s.hits = NULL;
   s.blocked = blocked;
-  if (!crowd_likely(rays, n) || s.t->nodes == NULL) {
+  if (s.t->nodes != NULL && crowd_likely(rays, n))
+    crowds_run(&s, (uint32_t)n);
+  else
     stream_run(&s, n, true);
-    return;
-  }
-  crowd q;
-  crowds_run(&q, &s, (uint32_t)n);
 }
 
 // The entries of this level.

@@ -62,8 +62,9 @@ SIMD void crowd_take(crowd *q, uint32_t first) {
 }
 
 // A crowd down the tree.  The lists of children of lists that were taken
-// together are a layer, which is taken before the rest of the one above.
-static void crowd_trace(crowd *q) {
+// together are a layer, which is taken before the rest of the one above.  Never
+// inlined: alone it has more registers.
+__attribute__((noinline)) static void crowd_trace(crowd *q) {
   uint32_t layer[FLIGHT_DEPTH + 2], depth = 0;
   crowd_start(q);
   layer[0] = 0;
@@ -93,18 +94,20 @@ SIMD bool crowd_likely(const ray *rays, size_t n) {
   return same > LOOKS / 2;
 }
 
-// All n rays, CROWD at a time.
-static void crowds_run(crowd *q, stream *s, uint32_t n) {
-  q->s = s;
-  q->alone.count = 0;
-  s->alone = &q->alone;
+// All n rays, CROWD at a time.  Never inlined: a crowd is large, and who asks
+// for none need not have it on the stack.
+__attribute__((noinline)) static void crowds_run(stream *s, uint32_t n) {
+  crowd q;
+  q.s = s;
+  q.alone.count = 0;
+  s->alone = &q.alone;
   pending_clear(&s->pending);
-  pending_clear(&q->pending);
-  for (q->first = 0; q->first < n; q->first += CROWD) {
-    q->count = n - q->first < CROWD ? n - q->first : CROWD;
-    crowd_trace(q);
+  pending_clear(&q.pending);
+  for (q.first = 0; q.first < n; q.first += CROWD) {
+    q.count = n - q.first < CROWD ? n - q.first : CROWD;
+    crowd_trace(&q);
   }
-  crowd_alone(q);
+  crowd_alone(&q);
 }
 
 #endif
