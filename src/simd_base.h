@@ -14,6 +14,9 @@
 // Known to the compiler where it is used, at any optimisation.
 #define SIMD static inline __attribute__((always_inline))
 
+// A function of its own wherever it is used.
+#define APART static __attribute__((noinline))
+
 // Four floats and four integers.
 typedef float f4 __attribute__((vector_size(16)));
 typedef int32_t i4 __attribute__((vector_size(16)));

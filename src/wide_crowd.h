@@ -3,6 +3,8 @@
 // Nothing asks such rays to visit what is near first.  So they need not go
 // each its own way: all that enter a node are asked for its children at once,
 // and those that enter the same child go on as one list.
+//
+// Source: Tsakok 2009; Barringer, Akenine-Möller 2014.
 
 #ifndef WIDE_CROWD_H
 #define WIDE_CROWD_H

@@ -64,7 +64,7 @@ SIMD void crowd_take(crowd *q, uint32_t first) {
 // A crowd down the tree.  The lists of children of lists that were taken
 // together are a layer, which is taken before the rest of the one above.  Never
 // inlined: alone it has more registers.
-__attribute__((noinline)) static void crowd_trace(crowd *q) {
+APART void crowd_trace(crowd *q) {
   uint32_t layer[FLIGHT_DEPTH + 2], depth = 0;
   crowd_start(q);
   layer[0] = 0;
@@ -96,7 +96,7 @@ SIMD bool crowd_likely(const ray *rays, size_t n) {
 
 // All n rays, CROWD at a time.  Never inlined: a crowd is large, and who asks
 // for none need not have it on the stack.
-__attribute__((noinline)) static void crowds_run(stream *s, uint32_t n) {
+APART void crowds_run(stream *s, uint32_t n) {
   crowd q;
   q.s = s;
   q.alone.count = 0;
