@@ -4,38 +4,8 @@
 #define WIDE_TOGETHER_H
 
 #include "wide_crowd_leaf.h"
+#include "wide_crowd_ready.h"
 #include "wide_part.h"
-
-// Make the rays of a crowd ready and put those that can hit anything in a list
-// at the root; those along a plane of the axes go alone.
-SIMD void crowd_start(crowd *q) {
-  stream *s = q->s;
-  crowd_lists *l = &q->nodes;
-  memset(s->blocked + q->first, 0, q->count * sizeof(bool));
-  l->used = l->count = 0;
-  for (uint32_t i = 0; i < q->count; i += 8) {
-    uint32_t left = q->count - i, all = left < 8 ? (1u << left) - 1 : 0xff;
-    ready_rays r;
-    f8 v[8];
-    const char *row[8];
-    for (uint32_t k = 0; k < 8; k++) {
-      uint32_t at = q->first + i + (k < left ? k : left - 1);
-      row[k] = (const char *)&s->rays[at];
-    }
-    f8_columns(v, row, 0);
-    ready_columns(&r, s->t, v);
-    all &= r.can;
-    uint32_t plain = crowd_rows(q, &r, i);
-    for (uint32_t k = 0; k < 8; k++) {
-      l->ray[l->used] = i + k;
-      l->used += (all & plain) >> k & 1;
-    }
-    for (all &= ~plain; all != 0; all &= all - 1)
-      crowd_leave(q, i + (uint32_t)__builtin_ctz(all), 0);
-  }
-  l->part[0] = (crowd_part){0, 0, l->used};
-  l->count = l->used > 0;
-}
 
 // Take lists from the end of those that wait, as long as what comes of them
 // finds room; one that is too long for what room there is goes alone.
