@@ -55,9 +55,9 @@ static film_box box_of(const adaptive *a, size_t tile) {
 
 static void count_pixels(adaptive *a, size_t tile) {
   film_box b = box_of(a, tile);
-  for (int y = b.y0; y < b.y1; y++)
-    for (int x = b.x0; x < b.x1; x++)
-      a->tiles[tile].pixels[render_color(x, y)]++;
+  int all = (b.x1 - b.x0) * (b.y1 - b.y0);
+  a->tiles[tile].pixels[0] = (all + 1) / 2;
+  a->tiles[tile].pixels[1] = all / 2;
 }
 
 adaptive *adaptive_new(const adaptive_settings *s, arena *mem) {
@@ -77,25 +77,27 @@ static double samples_of(const tile_state *t) {
   return t->pixels[0] * t->taken[0] + t->pixels[1] * t->taken[1];
 }
 
-// Pixels a side of a block whose pixels, all of one color, share the radiance
-// that their errors are divided by.
+// Pixels a side of a block whose pixels of a color share the radiance that
+// their errors are divided by.
 enum { BLOCK = 4 };
 
-// The squared relative error of a block, by its halves; the sum over pixels and
-// channels.
-static double block_error(const adaptive *a, film_box b) {
-  double sum = 0, n = (double)(b.x1 - b.x0) * (double)(b.y1 - b.y0);
+// The squared relative error of a color's pixels in a block, by their halves;
+// the sum over these pixels and their channels.
+static double block_error(const adaptive *a, film_box b, int color) {
+  double sum = 0;
   for (int c = 0; c < 3; c++) {
-    double squares = 0, radiance = 0;
+    double squares = 0, radiance = 0, n = 0;
     for (int y = b.y0; y < b.y1; y++)
-      for (int x = b.x0; x < b.x1; x++) {
+      for (int x = b.x0 + ((b.x0 + y + color) & 1); x < b.x1; x += 2) {
         size_t i = (size_t)y * (size_t)a->set.width + (size_t)x;
         double m[2];
         halves_means(&a->halves, i, c, m);
-        squares += (m[0] - m[1]) * (m[0] - m[1]) / 4;
+        double square = (m[0] - m[1]) * (m[0] - m[1]) / 4;
+        squares += square;
         radiance += m[0] * m[1];
+        n++;
       }
-    sum += squares / (fmax(radiance / n, 0) + 0.01);
+    if (n > 0) sum += squares / (fmax(radiance / n, 0) + 0.01);
   }
   return sum;
 }
@@ -110,13 +112,14 @@ static void ask_tile(adaptive *a, size_t tile) {
     for (int x = b.x0; x < b.x1; x += BLOCK) {
       film_box block = {x, y, x + BLOCK < b.x1 ? x + BLOCK : b.x1,
                         y + BLOCK < b.y1 ? y + BLOCK : b.y1};
-      sum[render_color(x, y)] += block_error(a, block);
+      for (int k = 0; k < 2; k++)
+        sum[k] += block_error(a, block, k);
     }
   for (int k = 0; k < 2; k++) {
     double of_mean = sum[1 - k] / fmax(3 * t->pixels[1 - k], 1);
     t->need[k] = sqrt(of_mean * t->taken[1 - k] / fmax(rays, 1));
   }
-  // A corner of one color is like the tile before.
+  // A corner of one pixel is like the tile before.
   if (t->pixels[1] == 0 && tile > 0) t->need[0] = t[-1].need[0];
 }
 

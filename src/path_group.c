@@ -19,19 +19,19 @@ typedef struct group {
 
 // Deal the pixels of a block out to groups, differently for each block and
 // sample: number `at` gets another number, whose first digits are the group and
-// whose last are the seat.  A group has pixels of one colour of a chessboard:
+// whose last are the seat.  A group has pixels of one color of a chessboard:
 // who decides by those of one how many samples the others get (chapter 15)
 // needs to know that they know nothing of each other.
 static uint32_t deal(const group *g, uint32_t at) {
   enum { ALL = GROUP * BLOCK_GROUPS / 2 };
-  uint32_t colour = (at ^ at / BLOCK_WIDTH) % 2;
+  uint32_t color = (at ^ at / BLOCK_WIDTH) % 2;
   uint64_t key = rng_mix(rng_mix(g->first) + g->sample);
   at /= 2;
   for (int round = 0; round < 3; round++, key >>= 16) {
     at = (at * (uint32_t)(key | 1) + (uint32_t)(key >> 8)) % ALL;
     at ^= at >> 2;
   }
-  return colour * ALL + at;
+  return color * ALL + at;
 }
 
 // The group of a start, and its seat.  Pixels beyond the film are those of

@@ -79,7 +79,7 @@ static bool wants_first(const render_settings *s) {
 _Static_assert((int)TILE <= (int)PATH_ROW, "a row of a tile is a path_row");
 
 static bool has_turn(const render_turn *turn, int x, int y) {
-  return turn->color == RENDER_BOTH_COLORS || render_color(x, y) == turn->color;
+  return turn->color == RENDER_BOTH_COLORS || ((x ^ y) & 1) == turn->color;
 }
 
 // Take up the sample of those of pixels (x0, y) to (x1 - 1, y) of the window

@@ -19,13 +19,8 @@ typedef struct render_budget {
   double left;  // before the deadline; INFINITY without one
 } render_budget;
 
-// Colors of pixels, as a chessboard has them whose fields are as large as the
-// blocks in which paths may share what they find; x and y in the window.
-static inline int render_color(int x, int y) {
-  return (x / 8 ^ y / 4) & 1;
-}
-
-// One sample of each pixel of a tile, or of those of one color.
+// One sample of each pixel of a tile, or of those of one colour, as a
+// chessboard has them: (x + y) mod 2, x and y in the window.
 enum { RENDER_BOTH_COLORS = 2 };
 typedef struct render_turn {
   uint32_t sample;
