@@ -170,7 +170,9 @@ static void learn_lights(render_job *j) {
   path_learn(&j->lights, &j->paths, &j->film, s->mem, s->threads);
   if (plan_needs(&j->plan, PLAN_AIM))
     j->paths.aim = aim_learn(&j->paths, &j->film, s->mem, s->threads);
-  if (share_learn(&j->paths, &j->film, s->threads)) j->paths.film = &j->film;
+  if (plan_needs(&j->plan, PLAN_SHARE) &&
+      share_learn(&j->paths, &j->film, s->threads))
+    j->paths.film = &j->film;
   j->learn_seconds = clock_seconds() - start;
 }
 

@@ -28,7 +28,8 @@ void render_plan_note_paths(render_job *j) {
   const render_result *r = &j->result;
   const cmd_tree *t = &j->tree;
   const light_env *e = &j->lights.env;
-  bool mis = j->o->value[OPT_INTEGRATOR].words == 2;
+  unsigned walker = j->o->value[OPT_INTEGRATOR].words;
+  bool mis = walker == 2, learns = walker == 0;
   plan_note(p, PLAN_TREE, 1, t->seconds, (double)cmd_tree_bytes(t));
   if (t->from_cache)
     p->line[PLAN_TREE].why = "rays ask it; kept by another run";
@@ -47,6 +48,10 @@ void render_plan_note_paths(render_job *j) {
   if (plan_needs(p, PLAN_AIM) && j->paths.aim == NULL)
     p->line[PLAN_AIM].why = mis ? "--integrator mis learns nothing"
                                 : "it would take too little noise away";
+  plan_note(p, PLAN_SHARE, r->paths.shared, -1, 0);
+  if (plan_needs(p, PLAN_SHARE) && j->paths.film == NULL)
+    p->line[PLAN_SHARE].why = learns ? "it would take too little noise away"
+                                     : "only --integrator auto learns";
   plan_note(p, PLAN_ALPHA, r->paths.through, -1, 0);
   p->line[PLAN_ALPHA].all = r->paths.shadows;
   plan_note(p, PLAN_SEGMENTS,

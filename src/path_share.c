@@ -82,6 +82,7 @@ void path_shares_connect(path_shares *s, const tracer *t, path_stats *stats) {
     find_ways(&w, stand, find);
     tracer_any_many(t, w.rays, blocked, w.count);
     stats->rays += w.count;
+    stats->shared += w.count;
     for (size_t k = 0; k < w.count; k++)
       if (!blocked[k])
         find[w.to[k]].weight[w.from[k]] =

@@ -25,6 +25,7 @@ typedef struct path_stats {
   uint64_t asked, shadows;  // light samples, and shadow rays of them
   uint64_t through;         // blocked shadow rays that look for sheets
   uint64_t aimed;           // rays at mirrors and glass
+  uint64_t shared;          // rays at what neighbours have found
 } path_stats;
 
 // Where a path begins: the camera ray of a sample of a pixel, numbered in the

@@ -341,13 +341,13 @@ static void plan_walks(plan *p) {
              : p->lamps_only ? "the last one would find no light"
              : r->no_skip    ? "--no-skip"
                              : "the last one may find light");
+  bool chains = shown && !dark && (most == 0 || (most > 2 && found));
+  tell_as_is(p, PLAN_SHARE, chains ? PLAN_ANY : 0, PLAN_ANY,
+             chains ? "where that takes noise away" : "paths are too short");
 }
 
 static uint64_t bits_of(unsigned word) {
-  uint64_t n = 0;
-  for (; word != 0; word &= word - 1)
-    n++;
-  return n;
+  return (uint64_t)__builtin_popcount(word);
 }
 
 static void plan_output(plan *p) {

@@ -34,6 +34,7 @@ typedef enum plan_stage {
   PLAN_ASK,         // light samples
   PLAN_SHADOW_RAY,  // of these
   PLAN_AIM,         // rays at mirrors and glass
+  PLAN_SHARE,       // rays at what neighbours have found
   PLAN_ALPHA,       // blocked shadow rays that look for sheets
   PLAN_SEGMENTS,    // of a path, where they are limited
   PLAN_FILMS,       // beside the colour

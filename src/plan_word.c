@@ -46,6 +46,7 @@ static const stage_words WORDS[PLAN_STAGES] = {
     [PLAN_ASK] = {"light samples", "samples"},
     [PLAN_SHADOW_RAY] = {"shadow rays", "rays"},
     [PLAN_AIM] = {"aimed rays", "rays"},
+    [PLAN_SHARE] = {"shared finds", "rays"},
     [PLAN_ALPHA] = {"alpha tests", "rays"},
     [PLAN_SEGMENTS] = {"segments", "a path"},
     [PLAN_FILMS] = {"other films", "films"},

@@ -12,8 +12,9 @@
 // by such that do not; of a few groups first.
 enum { GROUPS = 128, FEW = 32, PIXELS = GROUPS * GROUP, TWICE = 2, WAYS = 2 };
 
-// Variance times rays must shrink by this factor.
-#define WORTH 1.05
+// Variance times rays must shrink by this factor: errors that neighbours have
+// in common are seen more easily, and less is known of them.
+#define WORTH 1.6
 
 // By this for those few, or there is no hope.
 #define HOPE 0.8

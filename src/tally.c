@@ -18,6 +18,7 @@ void tally_add(tally *t, const tally *other) {
   t->paths.shadows += other->paths.shadows;
   t->paths.through += other->paths.through;
   t->paths.aimed += other->paths.aimed;
+  t->paths.shared += other->paths.shared;
   t->samples += other->samples;
   if (other->non_finite == 0) return;
   tally_drop(t, other->bad_sample, other->bad_pixel);

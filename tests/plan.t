@@ -100,6 +100,7 @@ with open("room.obj", "w") as out:
     for q in ((1, 3, 7, 5), (2, 6, 8, 4), (1, 5, 6, 2), (3, 4, 8, 7), (1, 2, 4, 3), (5, 7, 8, 6)):
         out.write("f %d %d %d %d\n" % q)
 scene("room", "room", "env sky.pfm\n")
+scene("shut", "room", "env none\nlight point 2 4 3 intensity 40 40 40\n")
 # A lamp that shines at a mirror.
 with open("shown.obj", "w") as out:
     out.write("mtllib all.mtl\n")
@@ -192,6 +193,8 @@ rule path "light samples" 0 -- lit.scene --spp 1 -- grey.scene --spp 4
 rule path "shadow rays" fewer -- lit.scene --spp 1 -- shiny.scene --spp 4
 rule path "aimed rays" 0 -- shown.scene --spp 1 -- glow.scene --spp 4
 rule path "aimed rays" 0 -- shown.scene --spp 1 -- glass.scene --env 1,1,1 --spp 4
+rule path "shared finds" 0 -- shut.scene --spp 1 -- shut.scene --max-depth 2 --spp 4
+rule path "shared finds" 0 -- shut.scene --spp 1 -- day.scene --spp 4
 rule path "alpha tests" 0 -- lace.scene --spp 4 -- lit.scene --spp 4
 rule path segments 2 -- glow.scene --max-depth 3 --spp 1 -- lit.scene --max-depth 3 --spp 4
 rule path segments 2 -- glow.scene --max-depth 3 --spp 1 -- lace.scene --max-depth 3 --spp 4
