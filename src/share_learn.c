@@ -17,7 +17,7 @@ enum { GROUPS = 128, FEW = 32, PIXELS = GROUPS * GROUP, TWICE = 2, WAYS = 2 };
 #define WORTH 1.6
 
 // By this for those few, or there is no hope.
-#define HOPE 0.8
+#define HOPE 1.3
 
 typedef struct share_trial {
   const path_tracer *by;
