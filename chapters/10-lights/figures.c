@@ -604,6 +604,17 @@ static void draw_memory(output *o) {
   publish(o->folder, "memory", all);
 }
 
+// Two pictures side by side, and how far each is from the truth.
+static void publish_pair(output *o, const char *file, image parts[2],
+                         const char *const names[2], const image *truth,
+                         float gain) {
+  for (int i = 0; i < 2; i++) {
+    print_error(names[i], &parts[i], truth, o);
+    parts[i] = expose(parts[i], gain);
+  }
+  publish(o->folder, file, row_of(&o->mem, parts, 2));
+}
+
 // The same time of paths that walk alone and of such that share.
 static void draw_neighbours(output *o) {
   stage *s = dim_room(o);
@@ -621,12 +632,8 @@ static void draw_neighbours(output *o) {
   printf("alone %.2f s, shared %.2f s\n", alone, clock_seconds() - start);
   by.seed = 0;
   image truth = render_room(o, s, &by, 128);
-  for (int i = 0; i < 2; i++) {
-    print_error(i == 0 ? "alone" : "shared", &parts[i], &truth, o);
-    parts[i] = expose(parts[i], 0.4f);
-  }
-  image all = row_of(&o->mem, parts, 2);
-  publish(o->folder, "neighbours", all);
+  const char *const names[] = {"alone", "shared"};
+  publish_pair(o, "neighbours", parts, names, &truth, 0.4f);
 }
 
 // The balls of the Cornell box and what is below them.
@@ -669,12 +676,8 @@ static void draw_glass(output *o) {
          clock_seconds() - start, learned);
   by.seed = 0;
   image truth = render_balls(o, s, &by, 64);
-  for (int i = 0; i < 2; i++) {
-    print_error(i == 0 ? "scattered" : "aimed", &parts[i], &truth, o);
-    parts[i] = expose(parts[i], 3);
-  }
-  image all = row_of(&o->mem, parts, 2);
-  publish(o->folder, "glass", all);
+  const char *const names[] = {"scattered", "aimed"};
+  publish_pair(o, "glass", parts, names, &truth, 3);
 }
 
 // The least seconds of several runs for each of n calls, in nanoseconds.
