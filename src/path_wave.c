@@ -18,13 +18,21 @@ wave *wave_room(const path_tracer *by, arena *mem) {
   return w;
 }
 
+// The start that comes k-th, where starts are rows of sixteen pixels: those of
+// a square of four by four become neighbours, and their rays a packet.
+static size_t square_order(size_t k) {
+  return (k & ~(size_t)0x3c) | (k >> 2 & 3) << 4 | (k >> 4 & 3) << 2;
+}
+
 void wave_begin(wave *w, const path_start *starts, size_t n) {
   const path_tracer *by = w->by;
   const sampler_kind kind = by->sampler;
   const uint64_t seed = by->seed;
+  const size_t squares = w->shares == NULL ? n & ~(size_t)63 : 0;
   w->count = 0;
   w->steps = 0;
-  for (size_t i = 0; i < n; i++) {
+  for (size_t k = 0; k < n; k++) {
+    size_t i = k < squares ? square_order(k) : k;
     const path_start *s = &starts[i];
     w->paths[i] = (path){.throughput = vec3_all(1), .scale = 1, .segment = 1};
     if (s->pixel == GROUP_NO_PIXEL) continue;
