@@ -24,6 +24,8 @@ static size_t square_order(size_t k) {
   return (k & ~(size_t)0x3c) | (k >> 2 & 3) << 4 | (k >> 4 & 3) << 2;
 }
 
+_Static_assert(PATH_ROW == 16, "rows of square_order");
+
 void wave_begin(wave *w, const path_start *starts, size_t n) {
   const path_tracer *by = w->by;
   const sampler_kind kind = by->sampler;
