@@ -30,7 +30,9 @@ until_true() {
   done
 }
 
-Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp 3>display 2>xvfb.log &
+# A server that nobody looks at any more starts anew, unless told not to, and
+# turns away who comes just then.
+Xvfb -displayfd 3 -screen 0 640x480x24 -nolisten tcp -noreset 3>display 2>xvfb.log &
 server=$!
 viewer=
 trap 'kill $viewer $server 2>/dev/null; chmod -R u+w "$T"; rm -rf "$T"' EXIT
@@ -44,7 +46,13 @@ viewer=$!
 # that can be seen takes it.
 seen() { w=$(xdotool search --onlyvisible --name facet | head -n 1) && [ -n "$w" ]; }
 focused() { xdotool windowfocus "$w" && [ "$(xdotool getwindowfocus)" = "$w" ]; }
-until_true 120 seen && until_true 30 focused
+if ! until_true 120 seen; then
+  cp said.txt said
+  fail "a window opens"
+  finish
+  exit
+fi
+until_true 30 focused
 said_more() { [ "$(grep -c ': written' said.txt)" -gt "$written" ]; }
 save() { # NAME: F12, and the picture that it wrote gets this name
   written=$(grep -c ': written' said.txt)
