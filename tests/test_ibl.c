@@ -1,6 +1,7 @@
 // test_ibl.c — light from environments against closed forms and against the
 // sum over all texels; the cache.
 
+#include "cache_folder.h"
 #include "ibl.h"
 #include "ibl_cache.h"
 #include "ibl_methods.h"
@@ -286,6 +287,9 @@ static void the_cache_is_honest(void **state) {
   ibl_make(&d, &e, &need, &mem, NULL);
   assert_false(d.from_cache);
   pool_free(threads);
+  cache_prune(0);
+  assert_int_equal(rmdir(cache_folder(&mem)), 0);
+  assert_int_equal(rmdir(folder), 0);
   arena_free(&mem);
 }
 
