@@ -75,32 +75,52 @@ static sight look_around(const path_tracer *by, const path_film *lesson,
   return s;
 }
 
+// Photons so far, of so many tries.
 typedef struct study {
   const path_tracer *by;
+  const path_film *lesson;
   const aim_mirrors *mirrors;
+  double brightness;
   float keen;
+  aim_photons photons;
+  aim_tries tries;
+  arena scratch;
   pool *threads;
 } study;
 
-// A map by so many photons; false where too few come down.
-static bool map_by(const study *s, size_t photons, aim_map *out, arena *mem) {
-  arena scratch = {0};
-  const scene *of = s->by->world->scene;
-  aim_photons list = aim_photons_of(s->mirrors, s->by->seed ^ OTHER_SEED,
-                                    photons, &scratch, s->threads);
-  bool enough = list.count >= LEAST_PHOTONS;
-  if (enough) aim_build(out, &list, of->lo, of->hi, mem);
-  out->keen = s->keen;
-  arena_free(&scratch);
-  return enough;
+static void try_first(study *s, size_t to) {
+  s->tries = (aim_tries){s->by->seed ^ OTHER_SEED, 0, to};
+  s->photons = aim_photons_of(s->mirrors, &s->tries, &s->scratch, s->threads);
 }
 
-static bool pays(const study *s, const aim_map *map, const path_film *lesson,
-                 double brightness) {
+static void try_more(study *s, size_t to) {
+  s->tries.from = s->tries.to, s->tries.to = to;
+  s->photons = aim_photons_more(s->mirrors, &s->photons, &s->tries, &s->scratch,
+                                s->threads);
+}
+
+static aim_map *map_of(const study *s, arena *mem) {
+  const scene *of = s->by->world->scene;
+  aim_map *m = ARENA_NEW(mem, aim_map, 1);
+  aim_build(m, &s->photons, of->lo, of->hi, mem);
+  m->keen = s->keen;
+  return m;
+}
+
+static bool pays(const study *s, const aim_map *map) {
   path_tracer by = *s->by;
   by.aim = map;
-  double gain = look_around(&by, lesson, s->threads).gain;
-  return gain >= WORTH * brightness * brightness;
+  double gain = look_around(&by, s->lesson, s->threads).gain;
+  return gain >= WORTH * s->brightness * s->brightness;
+}
+
+// What so many tries teach; NULL where it would not pay.
+static const aim_map *study_all(study *s, size_t tries, arena *mem) {
+  try_first(s, tries / FIRST_SHARE);
+  if (s->photons.count < LEAST_PHOTONS) return NULL;
+  if (!pays(s, map_of(s, &s->scratch))) return NULL;
+  try_more(s, tries);
+  return map_of(s, mem);
 }
 
 const aim_map *aim_learn(const path_tracer *by, const path_film *lesson,
@@ -108,20 +128,18 @@ const aim_map *aim_learn(const path_tracer *by, const path_film *lesson,
   const path_world *w = by->world;
   bool chains = w->max_depth == 0 || w->max_depth > 2;
   if (!chains || w->lamps_only) return NULL;
-  arena scratch = {0};
-  study s = {.by = by, .threads = threads};
-  s.mirrors = aim_mirrors_of(w, by->lights, &scratch);
-  aim_map first, *map = ARENA_NEW(mem, aim_map, 1);
-  size_t n = (size_t)lesson->width * (size_t)lesson->height;
-  n = n < MOST_PHOTONS / PHOTONS_PER_PIXEL ? n * PHOTONS_PER_PIXEL
-                                           : MOST_PHOTONS;
-  bool good = s.mirrors != NULL;
-  double brightness = 0;
-  if (good) brightness = look_around(by, lesson, threads).brightness;
-  good = good && brightness > 0;
-  if (good) s.keen = 1 / (sqrtf(PRICE) * (float)brightness);
-  good = good && map_by(&s, n / FIRST_SHARE, &first, &scratch) &&
-         pays(&s, &first, lesson, brightness) && map_by(&s, n, map, mem);
-  arena_free(&scratch);
-  return good ? map : NULL;
+  study s = {.by = by, .lesson = lesson, .threads = threads};
+  s.mirrors = aim_mirrors_of(w, by->lights, &s.scratch);
+  if (s.mirrors != NULL)
+    s.brightness = look_around(by, lesson, threads).brightness;
+  const aim_map *map = NULL;
+  if (s.brightness > 0) {
+    size_t n = (size_t)lesson->width * (size_t)lesson->height;
+    n = n < MOST_PHOTONS / PHOTONS_PER_PIXEL ? n * PHOTONS_PER_PIXEL
+                                             : MOST_PHOTONS;
+    s.keen = 1 / (sqrtf(PRICE) * (float)s.brightness);
+    map = study_all(&s, n, mem);
+  }
+  arena_free(&s.scratch);
+  return map;
 }

@@ -13,6 +13,9 @@
 // The most mirrors and glass on a way, and the tries of a batch.
 enum { LONGEST = 6, BATCH = 1024 };
 
+// So many tries know whether light comes down from where they begin.
+enum { SURE = 64 };
+
 struct aim_mirrors {
   const path_world *world;
   const light_set *lights;
@@ -32,14 +35,16 @@ typedef struct flight {
 // The room of one worker.
 typedef struct sky {
   flight flights[BATCH];
+  vertex at[BATCH];
   ray rays[BATCH];
   hit hits[BATCH];
+  bool blocked[BATCH];
 } sky;
 
 typedef struct flight_job {
   const aim_mirrors *by;
-  uint64_t seed;
-  size_t tries;
+  aim_tries tries;
+  uint32_t stretches[AIM_STRETCHES], stretch_count;
   sky *rooms;
   aim_photon *out;  // BATCH for each item
   size_t *counts;
@@ -102,14 +107,27 @@ static fate turn(const path_world *w, flight *f, vertex *v) {
   return ++f->events <= LONGEST && f->at.power > 0 ? FATE_ON : FATE_ENDS;
 }
 
-// A point of a mirror, chosen evenly, and light that arrives there.
-static bool start(const flight_job *job, size_t i, flight *f) {
+// Where along the area of a try's stretches it begins, in [0, 1).
+static float begin(const flight_job *job, size_t i, flight *f) {
+  size_t tries = job->tries.to - job->tries.from;
+  double u = ((double)i + (double)rng_next(&f->numbers)) / (double)tries;
+  double at = u * job->stretch_count;
+  uint32_t k = (uint32_t)at;
+  if (k >= job->stretch_count) k = job->stretch_count - 1;
+  f->at.stretch = job->stretches[k];
+  float along = (float)((f->at.stretch + at - k) / AIM_STRETCHES);
+  return float_min(along, FLOAT_BELOW_1);
+}
+
+// A point of a mirror, chosen evenly, and light that arrives there, if the
+// shadow ray meets nothing.
+static bool start(const flight_job *job, size_t i, flight *f, vertex *v,
+                  ray *shadow) {
   const aim_mirrors *by = job->by;
   const scene *s = by->world->scene;
-  *f = (flight){.numbers = rng_of(job->seed, i, 0)};
+  *f = (flight){.numbers = rng_of(job->tries.seed, job->tries.from + i, 0)};
   rng *n = &f->numbers;
-  float u = ((float)i + rng_next(n)) / (float)job->tries, share;
-  u = float_min(u, FLOAT_BELOW_1);
+  float u = begin(job, i, f), share;
   uint32_t t = by->triangles[pick_at(&by->by_area, &u, &share)];
   hit at = {.b1 = rng_next(n), .b2 = rng_next(n), .triangle = t};
   if (at.b1 + at.b2 > 1) at.b1 = 1 - at.b1, at.b2 = 1 - at.b2;
@@ -121,14 +139,28 @@ static bool start(const flight_job *job, size_t i, flight *f) {
   bool found = light_sample_at(by->lights, y, vec3_all(0), choice, &l);
   if (!found || l.delta) return false;
   f->ray.d = vec3_neg(l.wi);
-  vertex v = vertex_at(s, &at, f->ray.d);
+  *v = vertex_at(s, &at, f->ray.d);
   light_ray to = {.is_point = l.has_end, .to = l.to, .wi = l.wi};
-  ray shadow = light_ray_shadow(&to, &v.at, false);
-  if (by->world->tracer.any(by->world->tracer.tree, &shadow)) return false;
+  *shadow = light_ray_shadow(&to, &v->at, false);
   f->at.radiance = light_mean(l.radiance);
-  f->at.power = f->at.radiance * fabsf(vec3_dot(v.ng, l.wi)) / l.pdf;
-  f->at.power *= (float)(by->area / (double)job->tries);
-  return turn(by->world, f, &v) == FATE_ON;
+  f->at.power = f->at.radiance * fabsf(vec3_dot(v->ng, l.wi)) / l.pdf;
+  f->at.power *= (float)by->area;
+  return true;
+}
+
+// Begin the tries of an item; how many are on their way from the first mirror.
+static size_t start_all(const flight_job *job, size_t item, sky *room) {
+  const path_world *w = job->by->world;
+  size_t n = 0, next = 0, all = job->tries.to - job->tries.from;
+  for (size_t i = item * BATCH; i < (item + 1) * BATCH && i < all; i++)
+    n += start(job, i, &room->flights[n], &room->at[n], &room->rays[n]);
+  tracer_any_many(&w->tracer, room->rays, room->blocked, n);
+  for (size_t i = 0; i < n; i++) {
+    flight f = room->flights[i];
+    if (!room->blocked[i] && turn(w, &f, &room->at[i]) == FATE_ON)
+      room->flights[next++] = f;
+  }
+  return next;
 }
 
 static void land(flight_job *job, size_t item, flight *f, const vertex *v) {
@@ -144,9 +176,7 @@ static void fly(void *context, size_t item, int worker) {
   flight_job *job = context;
   const path_world *w = job->by->world;
   sky *room = &job->rooms[worker];
-  size_t n = 0, from = item * BATCH;
-  for (size_t i = from; i < from + BATCH && i < job->tries; i++)
-    n += start(job, i, &room->flights[n]);
+  size_t n = start_all(job, item, room);
   while (n > 0) {
     for (size_t i = 0; i < n; i++)
       room->rays[i] = room->flights[i].ray;
@@ -164,20 +194,70 @@ static void fly(void *context, size_t item, int worker) {
   }
 }
 
-aim_photons aim_photons_of(const aim_mirrors *m, uint64_t seed, size_t tries,
-                           arena *mem, pool *threads) {
+// Those of a job's tries, after room for `before` others; their power is what
+// one try for all of the area would stand for.
+static aim_photons fly_all(flight_job *job, size_t before, arena *mem,
+                           pool *threads) {
   arena scratch = {0};
-  size_t items = (tries + BATCH - 1) / BATCH;
+  size_t items = (job->tries.to - job->tries.from + BATCH - 1) / BATCH;
   int workers = threads == NULL ? 1 : pool_threads(threads);
-  flight_job job = {.by = m, .seed = seed, .tries = tries};
-  job.rooms = ARENA_NEW(&scratch, sky, (size_t)workers);
-  job.counts = ARENA_NEW(&scratch, size_t, items);
-  job.out = ARENA_NEW(mem, aim_photon, items * BATCH);
-  pool_run(threads, items, fly, &job);
-  aim_photons all = {job.out, 0};
+  job->rooms = ARENA_NEW(&scratch, sky, (size_t)workers);
+  job->counts = ARENA_NEW(&scratch, size_t, items);
+  job->out = ARENA_NEW(&scratch, aim_photon, items * BATCH);
+  pool_run(threads, items, fly, job);
+  aim_photons all = {NULL, before, 0};
   for (size_t i = 0; i < items; i++)
-    for (size_t j = 0; j < job.counts[i]; j++)
-      all.of[all.count++] = job.out[i * BATCH + j];
+    all.count += job->counts[i];
+  all.of = ARENA_NEW(mem, aim_photon, all.count);
+  aim_photon *to = all.of + before;
+  for (size_t i = 0; i < items; to += job->counts[i++])
+    if (job->counts[i] > 0)
+      memcpy(to, job->out + i * BATCH, job->counts[i] * sizeof *to);
   arena_free(&scratch);
+  return all;
+}
+
+static void divide(aim_photons *all, double tries) {
+  all->tries = tries;
+  for (size_t i = 0; i < all->count; i++)
+    all->of[i].power = (float)((double)all->of[i].power / tries);
+}
+
+aim_photons aim_photons_of(const aim_mirrors *m, const aim_tries *t, arena *mem,
+                           pool *threads) {
+  flight_job job = {.by = m, .tries = *t, .stretch_count = AIM_STRETCHES};
+  for (uint32_t i = 0; i < AIM_STRETCHES; i++)
+    job.stretches[i] = i;
+  aim_photons all = fly_all(&job, 0, mem, threads);
+  divide(&all, (double)(t->to - t->from));
+  return all;
+}
+
+// The stretches from which, or from one of as many side by side as make a sure
+// answer, some photon came.
+static void find_lit(flight_job *job, const aim_photons *first) {
+  bool lit[AIM_STRETCHES] = {false};
+  double most = ceil(SURE * AIM_STRETCHES / first->tries);
+  uint32_t beside = (uint32_t)fmin(most, AIM_STRETCHES);
+  for (size_t i = 0; i < first->count; i++)
+    lit[first->of[i].stretch / beside] = true;
+  for (uint32_t i = 0; i < AIM_STRETCHES; i++)
+    if (lit[i / beside]) job->stretches[job->stretch_count++] = i;
+}
+
+aim_photons aim_photons_more(const aim_mirrors *m, const aim_photons *first,
+                             const aim_tries *t, arena *mem, pool *threads) {
+  flight_job job = {.by = m, .tries = *t};
+  find_lit(&job, first);
+  size_t tries = (t->to - t->from) * job.stretch_count / AIM_STRETCHES;
+  job.tries.to = t->from + tries;
+  if (tries == 0) return *first;
+  aim_photons all = fly_all(&job, first->count, mem, threads);
+  for (size_t i = 0; i < first->count; i++) {
+    all.of[i] = first->of[i];
+    all.of[i].power *= (float)first->tries;
+  }
+  divide(&all,
+         first->tries + (double)tries * AIM_STRETCHES / job.stretch_count);
   return all;
 }

@@ -10,26 +10,41 @@
 
 // Light that has come down at x on a surface that faces n, from the point y of
 // the last mirror or glass: its radiance, the power that it stands for, and
-// the cosine at x.
+// the cosine at x; and in which stretch of the first one it began.
 typedef struct aim_photon {
   vec3 x, n, y;
   float radiance, power, cosine;
+  uint32_t stretch;
 } aim_photon;
 
 typedef struct aim_photons {
   aim_photon *of;
   size_t count;
+  double tries;  // for all of the area of mirrors and glass
 } aim_photons;
 
-// Where light may take that way: mirrors and glass of a scene, by area.
+// Where light may take that way: mirrors and glass of a scene, by area, which
+// in the order of triangles is cut into so many equal stretches.
+enum { AIM_STRETCHES = 128 };
 typedef struct aim_mirrors aim_mirrors;
 
 // NULL when there are none, or no light that could be seen in them.
 const aim_mirrors *aim_mirrors_of(const path_world *world, const light_set *l,
                                   arena *mem);
 
-// Those of so many tries that come down on what is not black, in mem.
-aim_photons aim_photons_of(const aim_mirrors *m, uint64_t seed, size_t tries,
-                           arena *mem, pool *threads);
+// Those of so many tries, numbered, that come down on what is not black, in
+// mem.
+typedef struct aim_tries {
+  uint64_t seed;
+  size_t from, to;
+} aim_tries;
+
+aim_photons aim_photons_of(const aim_mirrors *m, const aim_tries *t, arena *mem,
+                           pool *threads);
+
+// The first, and those of as many more tries, for each stretch that some of the
+// first began in or near, as these would be for all.
+aim_photons aim_photons_more(const aim_mirrors *m, const aim_photons *first,
+                             const aim_tries *t, arena *mem, pool *threads);
 
 #endif

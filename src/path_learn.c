@@ -12,9 +12,11 @@
 enum { PIXELS_PER_PATH = 4, MOST_PATHS = 1 << 16, QUESTIONS = 8 };
 
 // After this share of the paths the first lesson ends, and what is remembered
-// must be worth so much.
-enum { FIRST_SHARE = 6 };
+// must be worth so much; before that there is a trial of a smaller share, after
+// which there must be hope.
+enum { FIRST_SHARE = 6, TRIAL_SHARE = 24 };
 #define WORTH 1.25
+#define HOPE 1.1
 
 // From fewer questions nothing is learned.
 enum { LEAST_RECORDS = 1000 };
@@ -99,6 +101,24 @@ static void make_rooms(school_job *job, arena *mem, const pool *threads) {
     job->rooms[i] = by.room(by.self, mem);
 }
 
+// What a memory would be worth by the paths up to number `to`.
+static double gain_of(school_job *job, size_t to, path_log *all,
+                      pool *threads) {
+  arena scratch = {0};
+  hold_lesson(job, to, all, threads);
+  light_memory first = *job->by->lights->memory;
+  double gain = light_memory_learn(&first, all->items, all->count, &scratch);
+  arena_free(&scratch);
+  return gain;
+}
+
+static bool pays(school_job *job, path_log *all, pool *threads) {
+  double gain = gain_of(job, job->paths / TRIAL_SHARE, all, threads);
+  if (gain < HOPE && all->count >= LEAST_RECORDS) return false;
+  gain = gain_of(job, job->paths / FIRST_SHARE, all, threads);
+  return gain >= WORTH && all->count >= LEAST_RECORDS;
+}
+
 bool path_learn(light_set *lights, const path_tracer *by,
                 const path_film *lesson, arena *mem, pool *threads) {
   light_memory *memory = ARENA_NEW(mem, light_memory, 1);
@@ -112,10 +132,7 @@ bool path_learn(light_set *lights, const path_tracer *by,
   make_rooms(&job, &scratch, threads);
   path_log all = {0};
   lights->memory = memory;
-  hold_lesson(&job, job.paths / FIRST_SHARE, &all, threads);
-  light_memory first = *memory;
-  double gain = light_memory_learn(&first, all.items, all.count, &scratch);
-  if (gain >= WORTH && all.count >= LEAST_RECORDS) {
+  if (pays(&job, &all, threads)) {
     hold_lesson(&job, job.paths, &all, threads);
     light_memory_learn(memory, all.items, all.count, mem);
   } else {

@@ -9,7 +9,7 @@
 #define OTHER_SEED UINT64_C(0x7368617265)
 
 // Samples of the pixels of so many groups, each twice, by paths that share and
-// by such that do not; of a few groups first.
+// by such that do not; of a few groups first, which are the first of all.
 enum { GROUPS = 128, FEW = 32, PIXELS = GROUPS * GROUP, TWICE = 2, WAYS = 2 };
 
 // Variance times rays must shrink by this factor: errors that neighbours have
@@ -22,7 +22,7 @@ enum { GROUPS = 128, FEW = 32, PIXELS = GROUPS * GROUP, TWICE = 2, WAYS = 2 };
 typedef struct share_trial {
   const path_tracer *by;
   const path_film *film;
-  size_t pixels;
+  size_t from, pixels;  // the next to walk; up to here
   vec3 colors[WAYS][TWICE][PIXELS];
   uint64_t rays[WAYS][TWICE];
 } share_trial;
@@ -33,7 +33,7 @@ static void start_all(const share_trial *t, const integrator *by,
                       path_start *starts) {
   const path_film *f = t->film;
   enum { BLOCK = BLOCK_WIDTH * BLOCK_HEIGHT };
-  for (uint64_t i = 0; i < t->pixels; i++) {
+  for (uint64_t i = t->from; i < t->pixels; i++) {
     double n = (double)(i / BLOCK) + 0.5;
     uint64_t x = (uint64_t)(fmod(n * 0.7548776662, 1) * f->width);
     uint64_t y = (uint64_t)(fmod(n * 0.5698402910, 1) * f->height);
@@ -61,9 +61,10 @@ static void walk(void *context, size_t item, int worker) {
   path_start starts[PIXELS];
   path_stats stats = {0};
   start_all(t, &by, starts);
-  by.radiance(by.self, starts, t->pixels, t->colors[way][turn], &stats,
+  by.radiance(by.self, starts + t->from, t->pixels - t->from,
+              t->colors[way][turn] + t->from, &stats,
               by.room(by.self, &scratch));
-  t->rays[way][turn] = stats.rays;
+  t->rays[way][turn] += stats.rays;
   arena_free(&scratch);
 }
 
@@ -93,7 +94,7 @@ static double brightness(const share_trial *t) {
 
 // How much less the price is of paths that share, by so many groups.
 static double gain_of(share_trial *t, int groups, pool *threads) {
-  t->pixels = (size_t)groups * GROUP;
+  t->from = t->pixels, t->pixels = (size_t)groups * GROUP;
   pool_run(threads, (size_t)WAYS * TWICE, walk, t);
   double bright = brightness(t);
   double alone = price(t, 0, bright), together = price(t, 1, bright);

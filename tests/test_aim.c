@@ -3,6 +3,7 @@
 // nonsense, and what a mirror shows is known.
 
 #include "aim_learn.h"
+#include "aim_photon.h"
 #include "walkers.h"
 
 enum { WIDTH = 48, HEIGHT = 36 };
@@ -199,6 +200,55 @@ static void rooms_are_the_same(void **state) {
   world_free(w);
 }
 
+// The power that comes down, and how uncertain its sum is.
+static estimate power_of(const aim_photons *all) {
+  double sum = 0, sum2 = 0;
+  for (size_t i = 0; i < all->count; i++) {
+    double power = (double)all->of[i].power;
+    sum += power, sum2 += power * power;
+  }
+  return (estimate){sum, sqrt(sum2)};
+}
+
+// Photons that begin only where the first of them came from stand for the same
+// power as photons from everywhere, and more of their tries come down.
+static void photons_follow_the_first(void **state) {
+  (void)state;
+  enum { FIRST = 8192, TRIES = 65536, PART = TRIES / AIM_STRETCHES };
+  world *w = room_with_balls();
+  walker k;
+  room_walker(&k, w);
+  const aim_mirrors *m = aim_mirrors_of(&w->path, &k.lights, k.mem);
+  assert_non_null(m);
+  const aim_tries t = {1, 0, FIRST}, rest = {1, FIRST, TRIES};
+  const aim_tries even = {2, 0, TRIES};
+  aim_photons first = aim_photons_of(m, &t, k.mem, NULL);
+  aim_photons all = aim_photons_more(m, &first, &rest, k.mem, NULL);
+  aim_photons by = aim_photons_of(m, &even, k.mem, NULL);
+  size_t lit = 0;
+  bool known[AIM_STRETCHES] = {false};
+  for (size_t i = 0; i < first.count; i++)
+    known[first.of[i].stretch] = true;
+  for (int i = 0; i < AIM_STRETCHES; i++)
+    lit += known[i];
+  for (size_t i = 0; i < all.count; i++)
+    assert_true(known[all.of[i].stretch]);
+  for (size_t i = 0; i < first.count; i++)
+    assert_memory_equal(&all.of[i].x, &first.of[i].x, sizeof(vec3));
+  estimate a = power_of(&all), b = power_of(&by), c = power_of(&first);
+  print_message("# %zu of %d stretches, power %.4f +- %.4f, first %.4f, evenly "
+                "%.4f +- %.4f; photons %zu and %zu\n",
+                lit, AIM_STRETCHES, a.mean, a.error, c.mean, b.mean, b.error,
+                all.count, by.count);
+  assert_true(lit < AIM_STRETCHES * 3 / 4);
+  assert_true(fabs(all.tries - TRIES) < PART);
+  assert_true(fabs((double)all.count / (double)by.count - 1) < 0.05);
+  assert_true(fabs(a.mean - b.mean) <
+              4 * sqrt(a.error * a.error + b.error * b.error));
+  assert_true(fabs(a.mean - c.mean) < 4 * c.error);
+  world_free(w);
+}
+
 static void same_map(void **state) {
   (void)state;
   world *w = room_with_balls();
@@ -236,6 +286,7 @@ int main(void) {
       cmocka_unit_test(densities_are_those_of_samples),
       cmocka_unit_test(mirrored_lamps_shine),
       cmocka_unit_test(rooms_are_the_same),
+      cmocka_unit_test(photons_follow_the_first),
       cmocka_unit_test(same_map),
       cmocka_unit_test(nothing_to_aim_at),
   };
