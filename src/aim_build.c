@@ -29,6 +29,7 @@ typedef struct plot {
 
 typedef struct gardener {
   aim_photon *of;
+  double tries;
   aim_node *nodes;
   aim_cell *cells;
   size_t node_room, node_count, cell_room, cell_count;
@@ -136,7 +137,8 @@ static float area_of(const plot *s, uint32_t side) {
   return axis == 0 ? d.y * d.z : axis == 1 ? d.x * d.z : d.x * d.y;
 }
 
-static aim_cell conclude(aim_photon *p, const plot *s, uint32_t side) {
+static aim_cell conclude(const gardener *g, const plot *s, uint32_t side) {
+  aim_photon *p = g->of;
   aim_cell c = {0};
   bunch of[AIM_SPHERES];
   if (s->count < LEAF_LEAST) return c;
@@ -157,8 +159,7 @@ static aim_cell conclude(aim_photon *p, const plot *s, uint32_t side) {
     c.z[i] = middle.z;
     c.radius[i] = r;
   }
-  float area = area_of(s, side);
-  c.root = (float)sqrt(sum * sum / (double)area);
+  c.root = (float)(sum / sqrt((double)area_of(s, side) * g->tries));
   c.least = (float)(sum * sum / scattered);
   if (!(c.least > 0 && c.least < INFINITY && c.root < INFINITY)) return c;
   for (uint32_t i = 0; i < n; i++)
@@ -177,7 +178,7 @@ static void plant(gardener *g, plot all, uint32_t side, float small) {
     int axis = longest(d);
     if (s.count <= LEAF_MOST || !(vec3_axis(d, axis) > small) ||
         depth >= DEEPEST) {
-      aim_cell c = conclude(g->of, &s, side);
+      aim_cell c = conclude(g, &s, side);
       g->nodes[s.node] = (aim_node){0, AIM_LEAF, new_cell(g, &c)};
       continue;
     }
@@ -197,7 +198,8 @@ static void plant(gardener *g, plot all, uint32_t side, float small) {
 void aim_build(aim_map *out, const aim_photons *photons, vec3 lo, vec3 hi,
                arena *mem) {
   arena scratch = {0};
-  gardener g = {.of = ARENA_NEW(&scratch, aim_photon, photons->count)};
+  gardener g = {.of = ARENA_NEW(&scratch, aim_photon, photons->count),
+                .tries = photons->tries};
   for (uint32_t i = 0; i < LIGHT_SIDES; i += 2)
     new_nodes(&g);
   uint32_t end = 0;

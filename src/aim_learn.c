@@ -75,35 +75,19 @@ static sight look_around(const path_tracer *by, const path_film *lesson,
   return s;
 }
 
-// Photons so far, of so many tries.
 typedef struct study {
   const path_tracer *by;
   const path_film *lesson;
   const aim_mirrors *mirrors;
   double brightness;
-  float keen;
-  aim_photons photons;
-  aim_tries tries;
-  arena scratch;
   pool *threads;
 } study;
 
-static void try_first(study *s, size_t to) {
-  s->tries = (aim_tries){s->by->seed ^ OTHER_SEED, 0, to};
-  s->photons = aim_photons_of(s->mirrors, &s->tries, &s->scratch, s->threads);
-}
-
-static void try_more(study *s, size_t to) {
-  s->tries.from = s->tries.to, s->tries.to = to;
-  s->photons = aim_photons_more(s->mirrors, &s->photons, &s->tries, &s->scratch,
-                                s->threads);
-}
-
-static aim_map *map_of(const study *s, arena *mem) {
+static aim_map *map_of(const study *s, const aim_photons *photons, arena *mem) {
   const scene *of = s->by->world->scene;
   aim_map *m = ARENA_NEW(mem, aim_map, 1);
-  aim_build(m, &s->photons, of->lo, of->hi, mem);
-  m->keen = s->keen;
+  aim_build(m, photons, of->lo, of->hi, mem);
+  m->keen = 1 / (sqrtf(PRICE) * (float)s->brightness);
   return m;
 }
 
@@ -115,12 +99,16 @@ static bool pays(const study *s, const aim_map *map) {
 }
 
 // What so many tries teach; NULL where it would not pay.
-static const aim_map *study_all(study *s, size_t tries, arena *mem) {
-  try_first(s, tries / FIRST_SHARE);
-  if (s->photons.count < LEAST_PHOTONS) return NULL;
-  if (!pays(s, map_of(s, &s->scratch))) return NULL;
-  try_more(s, tries);
-  return map_of(s, mem);
+static const aim_map *study_all(const study *s, size_t tries, arena *mem,
+                                arena *scratch) {
+  const uint64_t seed = s->by->seed ^ OTHER_SEED;
+  const size_t few = tries / FIRST_SHARE;
+  const aim_tries first = {seed, 0, few}, rest = {seed, few, tries};
+  aim_photons all = aim_photons_of(s->mirrors, &first, scratch, s->threads);
+  if (all.count < LEAST_PHOTONS) return NULL;
+  if (!pays(s, map_of(s, &all, scratch))) return NULL;
+  all = aim_photons_more(s->mirrors, &all, &rest, scratch, s->threads);
+  return map_of(s, &all, mem);
 }
 
 const aim_map *aim_learn(const path_tracer *by, const path_film *lesson,
@@ -128,18 +116,16 @@ const aim_map *aim_learn(const path_tracer *by, const path_film *lesson,
   const path_world *w = by->world;
   bool chains = w->max_depth == 0 || w->max_depth > 2;
   if (!chains || w->lamps_only) return NULL;
+  arena scratch = {0};
   study s = {.by = by, .lesson = lesson, .threads = threads};
-  s.mirrors = aim_mirrors_of(w, by->lights, &s.scratch);
+  s.mirrors = aim_mirrors_of(w, by->lights, &scratch);
   if (s.mirrors != NULL)
     s.brightness = look_around(by, lesson, threads).brightness;
+  size_t n = (size_t)lesson->width * (size_t)lesson->height;
+  n = n < MOST_PHOTONS / PHOTONS_PER_PIXEL ? n * PHOTONS_PER_PIXEL
+                                           : MOST_PHOTONS;
   const aim_map *map = NULL;
-  if (s.brightness > 0) {
-    size_t n = (size_t)lesson->width * (size_t)lesson->height;
-    n = n < MOST_PHOTONS / PHOTONS_PER_PIXEL ? n * PHOTONS_PER_PIXEL
-                                             : MOST_PHOTONS;
-    s.keen = 1 / (sqrtf(PRICE) * (float)s.brightness);
-    map = study_all(&s, n, mem);
-  }
-  arena_free(&s.scratch);
+  if (s.brightness > 0) map = study_all(&s, n, mem, &scratch);
+  arena_free(&scratch);
   return map;
 }

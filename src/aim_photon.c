@@ -45,6 +45,7 @@ typedef struct flight_job {
   const aim_mirrors *by;
   aim_tries tries;
   uint32_t stretches[AIM_STRETCHES], stretch_count;
+  bool lit[AIM_STRETCHES][2];  // before and behind
   sky *rooms;
   aim_photon *out;  // BATCH for each item
   size_t *counts;
@@ -119,8 +120,8 @@ static float begin(const flight_job *job, size_t i, flight *f) {
   return float_min(along, FLOAT_BELOW_1);
 }
 
-// A point of a mirror, chosen evenly, and light that arrives there, if the
-// shadow ray meets nothing.
+// A point of a mirror, chosen evenly, and light that arrives there on a lit
+// side, if the shadow ray meets nothing.
 static bool start(const flight_job *job, size_t i, flight *f, vertex *v,
                   ray *shadow) {
   const aim_mirrors *by = job->by;
@@ -138,6 +139,8 @@ static bool start(const flight_job *job, size_t i, flight *f, vertex *v,
   light_sample l;
   bool found = light_sample_at(by->lights, y, vec3_all(0), choice, &l);
   if (!found || l.delta) return false;
+  f->at.behind = vec3_dot(vec3_cross(ab, ac), l.wi) < 0;
+  if (!job->lit[f->at.stretch][f->at.behind]) return false;
   f->ray.d = vec3_neg(l.wi);
   *v = vertex_at(s, &at, f->ray.d);
   light_ray to = {.is_point = l.has_end, .to = l.to, .wi = l.wi};
@@ -194,70 +197,59 @@ static void fly(void *context, size_t item, int worker) {
   }
 }
 
-// Those of a job's tries, after room for `before` others; their power is what
-// one try for all of the area would stand for.
-static aim_photons fly_all(flight_job *job, size_t before, arena *mem,
-                           pool *threads) {
+// Some, and after them those of a job's tries.
+static aim_photons fly_all(flight_job *job, const aim_photons *before,
+                           arena *mem, pool *threads) {
   arena scratch = {0};
-  size_t items = (job->tries.to - job->tries.from + BATCH - 1) / BATCH;
+  size_t tries = job->tries.to - job->tries.from;
+  size_t items = (tries + BATCH - 1) / BATCH;
   int workers = threads == NULL ? 1 : pool_threads(threads);
   job->rooms = ARENA_NEW(&scratch, sky, (size_t)workers);
   job->counts = ARENA_NEW(&scratch, size_t, items);
   job->out = ARENA_NEW(&scratch, aim_photon, items * BATCH);
   pool_run(threads, items, fly, job);
-  aim_photons all = {NULL, before, 0};
+  aim_photons all = *before;
+  all.tries += (double)tries * AIM_STRETCHES / job->stretch_count;
   for (size_t i = 0; i < items; i++)
     all.count += job->counts[i];
   all.of = ARENA_NEW(mem, aim_photon, all.count);
-  aim_photon *to = all.of + before;
-  for (size_t i = 0; i < items; to += job->counts[i++])
-    if (job->counts[i] > 0)
-      memcpy(to, job->out + i * BATCH, job->counts[i] * sizeof *to);
+  aim_photon *to = all.of;
+  for (size_t i = 0; i < before->count; i++)
+    *to++ = before->of[i];
+  for (size_t i = 0; i < items; i++)
+    for (size_t j = 0; j < job->counts[i]; j++)
+      *to++ = job->out[i * BATCH + j];
   arena_free(&scratch);
   return all;
 }
 
-static void divide(aim_photons *all, double tries) {
-  all->tries = tries;
-  for (size_t i = 0; i < all->count; i++)
-    all->of[i].power = (float)((double)all->of[i].power / tries);
-}
-
-aim_photons aim_photons_of(const aim_mirrors *m, const aim_tries *t, arena *mem,
-                           pool *threads) {
-  flight_job job = {.by = m, .tries = *t, .stretch_count = AIM_STRETCHES};
-  for (uint32_t i = 0; i < AIM_STRETCHES; i++)
-    job.stretches[i] = i;
-  aim_photons all = fly_all(&job, 0, mem, threads);
-  divide(&all, (double)(t->to - t->from));
-  return all;
-}
-
-// The stretches from which, or from one of as many side by side as make a sure
-// answer, some photon came.
+// The stretches and sides from which some photon came, or from one of as many
+// side by side as make a sure answer.  Where there are none, all of them.
 static void find_lit(flight_job *job, const aim_photons *first) {
-  bool lit[AIM_STRETCHES] = {false};
-  double most = ceil(SURE * AIM_STRETCHES / first->tries);
-  uint32_t beside = (uint32_t)fmin(most, AIM_STRETCHES);
+  bool lit[AIM_STRETCHES][2] = {{first->count == 0, first->count == 0}};
+  uint32_t beside = AIM_STRETCHES;
+  if (first->count > 0 && first->tries > SURE)
+    beside = (uint32_t)ceil(SURE * AIM_STRETCHES / first->tries);
   for (size_t i = 0; i < first->count; i++)
-    lit[first->of[i].stretch / beside] = true;
-  for (uint32_t i = 0; i < AIM_STRETCHES; i++)
-    if (lit[i / beside]) job->stretches[job->stretch_count++] = i;
+    lit[first->of[i].stretch / beside][first->of[i].behind] = true;
+  for (uint32_t i = 0; i < AIM_STRETCHES; i++) {
+    const bool *here = lit[i / beside];
+    job->lit[i][0] = here[0], job->lit[i][1] = here[1];
+    if (here[0] || here[1]) job->stretches[job->stretch_count++] = i;
+  }
 }
 
 aim_photons aim_photons_more(const aim_mirrors *m, const aim_photons *first,
                              const aim_tries *t, arena *mem, pool *threads) {
   flight_job job = {.by = m, .tries = *t};
   find_lit(&job, first);
-  size_t tries = (t->to - t->from) * job.stretch_count / AIM_STRETCHES;
-  job.tries.to = t->from + tries;
-  if (tries == 0) return *first;
-  aim_photons all = fly_all(&job, first->count, mem, threads);
-  for (size_t i = 0; i < first->count; i++) {
-    all.of[i] = first->of[i];
-    all.of[i].power *= (float)first->tries;
-  }
-  divide(&all,
-         first->tries + (double)tries * AIM_STRETCHES / job.stretch_count);
-  return all;
+  job.tries.to =
+      t->from + (t->to - t->from) * job.stretch_count / AIM_STRETCHES;
+  return fly_all(&job, first, mem, threads);
+}
+
+aim_photons aim_photons_of(const aim_mirrors *m, const aim_tries *t, arena *mem,
+                           pool *threads) {
+  const aim_photons none = {0};
+  return aim_photons_more(m, &none, t, mem, threads);
 }

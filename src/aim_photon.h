@@ -9,18 +9,20 @@
 #include "pool.h"
 
 // Light that has come down at x on a surface that faces n, from the point y of
-// the last mirror or glass: its radiance, the power that it stands for, and
-// the cosine at x; and in which stretch of the first one it began.
+// the last mirror or glass: its radiance, the power that it would stand for if
+// it had been the only try, and the cosine at x; and where it began: in which
+// stretch, and whether behind the triangle.
 typedef struct aim_photon {
   vec3 x, n, y;
   float radiance, power, cosine;
   uint32_t stretch;
+  bool behind;
 } aim_photon;
 
 typedef struct aim_photons {
   aim_photon *of;
   size_t count;
-  double tries;  // for all of the area of mirrors and glass
+  double tries;  // as many evenly over mirrors and glass would bring as much
 } aim_photons;
 
 // Where light may take that way: mirrors and glass of a scene, by area, which
@@ -42,8 +44,8 @@ typedef struct aim_tries {
 aim_photons aim_photons_of(const aim_mirrors *m, const aim_tries *t, arena *mem,
                            pool *threads);
 
-// The first, and those of as many more tries, for each stretch that some of the
-// first began in or near, as these would be for all.
+// The first, and more: the tries are cut down to the stretches in or near which
+// some of the first began, and to the sides on which they did.
 aim_photons aim_photons_more(const aim_mirrors *m, const aim_photons *first,
                              const aim_tries *t, arena *mem, pool *threads);
 

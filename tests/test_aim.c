@@ -204,7 +204,7 @@ static void rooms_are_the_same(void **state) {
 static estimate power_of(const aim_photons *all) {
   double sum = 0, sum2 = 0;
   for (size_t i = 0; i < all->count; i++) {
-    double power = (double)all->of[i].power;
+    double power = (double)all->of[i].power / all->tries;
     sum += power, sum2 += power * power;
   }
   return (estimate){sum, sqrt(sum2)};
@@ -226,13 +226,13 @@ static void photons_follow_the_first(void **state) {
   aim_photons all = aim_photons_more(m, &first, &rest, k.mem, NULL);
   aim_photons by = aim_photons_of(m, &even, k.mem, NULL);
   size_t lit = 0;
-  bool known[AIM_STRETCHES] = {false};
+  bool known[AIM_STRETCHES][2] = {{false}};
   for (size_t i = 0; i < first.count; i++)
-    known[first.of[i].stretch] = true;
+    known[first.of[i].stretch][first.of[i].behind] = true;
   for (int i = 0; i < AIM_STRETCHES; i++)
-    lit += known[i];
+    lit += known[i][0] || known[i][1];
   for (size_t i = 0; i < all.count; i++)
-    assert_true(known[all.of[i].stretch]);
+    assert_true(known[all.of[i].stretch][all.of[i].behind]);
   for (size_t i = 0; i < first.count; i++)
     assert_memory_equal(&all.of[i].x, &first.of[i].x, sizeof(vec3));
   estimate a = power_of(&all), b = power_of(&by), c = power_of(&first);
