@@ -40,6 +40,13 @@ path_start path_learn_start(const path_film *l, const integrator *by,
   return (path_start){camera_ray(l->view, x, y), i, 0};
 }
 
+// Every part of the lesson looks at all of the picture: paths are dealt out in
+// TRIAL_SHARE rounds.
+static uint64_t dealt(uint64_t i, uint64_t paths) {
+  uint64_t round = paths / TRIAL_SHARE;
+  return i % round * TRIAL_SHARE + i / round;
+}
+
 static void walk(void *context, size_t item, int worker) {
   const school_job *job = context;
   path_tracer one = *job->by;
@@ -52,7 +59,8 @@ static void walk(void *context, size_t item, int worker) {
   size_t first = job->from + item * INTEGRATOR_BATCH, n = job->to - first;
   if (n > INTEGRATOR_BATCH) n = INTEGRATOR_BATCH;
   for (size_t i = 0; i < n; i++)
-    starts[i] = path_learn_start(job->lesson, &by, first + i, job->paths);
+    starts[i] = path_learn_start(job->lesson, &by, dealt(first + i, job->paths),
+                                 job->paths);
   by.radiance(by.self, starts, n, colors, &stats, job->rooms[worker]);
 }
 
@@ -129,6 +137,7 @@ bool path_learn(light_set *lights, const path_tracer *by,
   school_job job = {.by = &pupil, .lesson = lesson};
   job.paths = (size_t)lesson->width * (size_t)lesson->height / PIXELS_PER_PATH;
   if (job.paths > MOST_PATHS) job.paths = MOST_PATHS;
+  job.paths -= job.paths % TRIAL_SHARE;
   make_rooms(&job, &scratch, threads);
   path_log all = {0};
   lights->memory = memory;
