@@ -21,15 +21,23 @@ enum {
 
 // One channel of the pixels that are seen; 0 where there is none.
 typedef struct channel {
-  double a[SEEN][SEEN], b[SEEN][SEEN], other[SEEN][SEEN];
+  double mean[SEEN][SEEN];  // (a + b) / 2
+  double half[SEEN][SEEN];  // (a - b) / 2
+  double other[SEEN][SEEN];
 } channel;
+
+// The others of each pixel's window: 1 / number, 1 / (number - 1); both 0 where
+// there are not two.
+typedef struct others {
+  double each[GUESSED][GUESSED], rest[GUESSED][GUESSED];
+} others;
 
 // What one channel of the pixels of a patch and around it may be.
 typedef struct guesses {
   float likely[GUESSED][GUESSED];  // radiance; infinite where there's no pixel
   float share[GUESSED][GUESSED];   // 1 / (likely^2 + 0.01)
-  float first[GUESSED][GUESSED];   // the same of an expected square
-  float most[GUESSED][GUESSED];    // and no more than that
+  float square[GUESSED][GUESSED];  // what its square is expected to be
+  float sure[GUESSED][GUESSED];    // and no less than that
   float sharp[GUESSED][GUESSED];   // 1 / the variance of a half
 } guesses;
 
@@ -38,40 +46,20 @@ typedef struct guesses {
 typedef struct patch {
   int x, y, rows;
   double there[SEEN][SEEN];  // 1 where there is a pixel
+  others others;
   channel seen[3];
-  guesses guess;               // of one channel
-  double terms[PATCH][PATCH];  // sums over channels
+  guesses guess;  // of one channel
+  // Sums over channels: of squares, and of what is averaged like them.
+  double terms[PATCH][PATCH], other[PATCH][PATCH];
 } patch;
-
-// Sums over pixels of a window.
-typedef struct window_sums {
-  double there[SEEN], mean[SEEN], mean2[SEEN], square[SEEN];
-} window_sums;
-
-// What is expected of a row of pixels.
-typedef struct expected {
-  float likely[GUESSED], square[GUESSED];  // radiance, and its square
-  float sure[GUESSED];                     // the square is not less
-  float variance[GUESSED];                 // of a half
-} expected;
 
 static double more(double a, double b) {
   return a > b ? a : b;
 }
 
-static void add_row(const patch *p, const channel *c, int row,
-                    window_sums *restrict out) {
-  for (int k = 0; k < SEEN; k++) {
-    double mean = (c->a[row][k] + c->b[row][k]) / 2;
-    double half = (c->a[row][k] - c->b[row][k]) / 2;
-    out->there[k] += p->there[row][k];
-    out->mean[k] += mean;
-    out->mean2[k] += mean * mean;
-    out->square[k] += half * half;
-  }
-}
-
-// Two columns at each side, and the pixel's own without itself.
+// Sums over columns of a window to sums over all of it but the pixel itself,
+// whose column without it is `own`.  Nothing is taken off again, where one
+// pixel may be a million times the others.
 static void join_columns(const double *column, const double *own,
                          double *restrict out) {
   for (int k = 0; k < GUESSED; k++)
@@ -79,16 +67,42 @@ static void join_columns(const double *column, const double *own,
         column[k] + column[k + 1] + own[k + 2] + column[k + 3] + column[k + 4];
 }
 
-// Sums over the others of each pixel's window.  Nothing is taken off again,
-// where one pixel may be a million times the others.
-static void sum_others(const patch *p, const channel *c, int row,
-                       window_sums *out) {
-  window_sums column = {{0}, {0}, {0}, {0}};
+static void count_others(patch *p, int row) {
+  double own[SEEN] = {0}, column[SEEN], n[GUESSED];
+  double *restrict each = p->others.each[row - REACH];
+  double *restrict rest = p->others.rest[row - REACH];
   for (int r = row - REACH; r <= row + REACH; r++)
-    if (r != row) add_row(p, c, r, &column);
-  window_sums own = column;
-  add_row(p, c, row, &column);
-  join_columns(column.there, own.there, out->there);
+    for (int k = 0; k < SEEN && r != row; k++)
+      own[k] += p->there[r][k];
+  for (int k = 0; k < SEEN; k++)
+    column[k] = own[k] + p->there[row][k];
+  join_columns(column, own, n);
+  for (int k = 0; k < GUESSED; k++) {
+    each[k] = n[k] > 1 ? 1 / n[k] : 0;
+    rest[k] = n[k] > 1 ? 1 / (n[k] - 1) : 0;
+  }
+}
+
+// Sums over the others.
+typedef struct other_sums {
+  double mean[SEEN], mean2[SEEN], square[SEEN];
+} other_sums;
+
+static void add_row(const channel *c, int row, other_sums *restrict out) {
+  for (int k = 0; k < SEEN; k++) {
+    double mean = c->mean[row][k], half = c->half[row][k];
+    out->mean[k] += mean;
+    out->mean2[k] += mean * mean;
+    out->square[k] += half * half;
+  }
+}
+
+static void sum_others(const channel *c, int row, other_sums *out) {
+  other_sums own = {{0}, {0}, {0}};
+  for (int r = row - REACH; r <= row + REACH; r++)
+    if (r != row) add_row(c, r, &own);
+  other_sums column = own;
+  add_row(c, row, &column);
   join_columns(column.mean, own.mean, out->mean);
   join_columns(column.mean2, own.mean2, out->mean2);
   join_columns(column.square, own.square, out->square);
@@ -99,13 +113,16 @@ static void sum_others(const patch *p, const channel *c, int row,
 // certain the pixel is, the more its neighbours count.  Who has not two of them
 // has only itself.
 // Source: James and Stein, 1961.
-static void expect_row(const double *a, const double *b, const window_sums *o,
-                       expected *restrict e) {
+static void expect_row(const patch *p, const channel *c, int row,
+                       guesses *restrict g) {
+  other_sums o;
+  sum_others(c, row, &o);
+  int r = row - REACH;
   for (int k = 0; k < GUESSED; k++) {
-    double mean = (a[k] + b[k]) / 2, half = (a[k] - b[k]) / 2;
-    double n = o->there[k], each = 1 / more(n, 1), rest = 1 / more(n - 1, 1);
-    double around = o->mean[k] * each, noise = o->square[k] * each;
-    double vary = (o->mean2[k] - o->mean[k] * around) * rest;
+    double mean = c->mean[row][k + REACH], half = c->half[row][k + REACH];
+    double each = p->others.each[r][k];
+    double around = o.mean[k] * each, noise = o.square[k] * each;
+    double vary = (o.mean2[k] - o.mean[k] * around) * p->others.rest[r][k];
     double spread = more(vary - noise, 0), own = more(noise, half * half);
     double all = spread + own;
     double trust = spread / (all > 0 ? all : 1);
@@ -113,50 +130,40 @@ static void expect_row(const double *a, const double *b, const window_sums *o,
     // Half of what the square of an uncertain number exceeds the square of its
     // mean by, because it is to be divided by.
     double square = likely * likely + (1 - trust) * spread / 2;
-    double alone = more(a[k] * b[k], 0);
+    double lone = each > 0 ? 0 : more((mean + half) * (mean - half), 0);
     // A lamp among dark neighbours: both means see it, as no accident would.
-    double least = a[k] < b[k] ? a[k] : b[k];
-    double sure = more(least - 2 * sqrt(noise), 0);
-    e->likely[k] = (float)(n > 1 ? likely : sqrt(alone));
-    e->square[k] = (float)(n > 1 ? square : alone);
-    e->sure[k] = (float)(sure * sure);
-    e->variance[k] = (float)(2 * own);
+    double sure = more(mean - fabs(half) - 2 * sqrt(noise), 0);
+    g->likely[r][k] = (float)(likely + sqrt(lone));
+    g->square[r][k] = (float)(square + lone);
+    g->sure[r][k] = (float)(sure * sure);
+    g->sharp[r][k] = (float)(1 / more(own < 1e30 ? 2 * own : 1e30, 1e-30));
   }
 }
 
-// Guesses for a row of what is seen, from the third to the last but two.
-static void guess_row(patch *p, const channel *c, int row) {
-  window_sums others;
-  expected e;
-  guesses *restrict g = &p->guess;
-  int r = row - REACH;
-  sum_others(p, c, row, &others);
-  expect_row(&c->a[row][REACH], &c->b[row][REACH], &others, &e);
+static void share_row(const patch *p, int row, guesses *restrict g) {
   for (int k = 0; k < GUESSED; k++) {
-    float likely = e.likely[k], share = 1 / (likely * likely + 0.01f);
-    float variance = e.variance[k] < 1e30f ? e.variance[k] : 1e30f;
-    bool there = p->there[row][k + REACH] > 0;
-    g->likely[r][k] = there ? likely : INFINITY;
-    g->share[r][k] = there ? share : 0;
-    g->first[r][k] = 1 / (e.square[k] + 0.01f);
-    g->most[r][k] = 1 / (e.sure[k] + 0.01f);
-    g->sharp[r][k] = 1 / (variance > 1e-30f ? variance : 1e-30f);
+    float likely = g->likely[row][k], share = 1 / (likely * likely + 0.01f);
+    bool there = p->there[row + REACH][k + REACH] > 0;
+    g->likely[row][k] = there ? likely : INFINITY;
+    g->share[row][k] = there ? share : 0;
   }
 }
 
 // A row of pixels that ask which of their neighbours they may be.
 typedef struct asking {
-  float a[PATCH], b[PATCH], sharp[PATCH];
+  float a[PATCH], b[PATCH];
   float sum[PATCH], all[PATCH];
 } asking;
 
-// May each be the neighbour on one side of it?
+// May each be the neighbour at one side of it?  As likely as both halves are
+// where that one's halves vary as they do, by Student's distribution of three
+// degrees of freedom: what is known of the variance is little.
 static void ask_neighbours(asking *restrict p, const float *likely,
-                           const float *share) {
+                           const float *sharp, const float *share) {
   for (int k = 0; k < PATCH; k++) {
     float a = p->a[k] - likely[k], b = p->b[k] - likely[k];
-    float off = (1 + a * a * p->sharp[k]) * (1 + b * b * p->sharp[k]);
-    float fit = 1 / (off * off);
+    float off = (1 + a * a * sharp[k]) * (1 + b * b * sharp[k]);
+    float fit = sharp[k] / (off * off);
     p->sum[k] += fit * share[k];
     p->all[k] += fit;
   }
@@ -164,60 +171,66 @@ static void ask_neighbours(asking *restrict p, const float *likely,
 
 // At an edge there are two kinds of pixels and none between them.  So let a
 // pixel be one of its window, itself or another, the likelier the better that
-// fits both its halves: the mean of these pixels' shares.
+// fits: the mean of these pixels' shares.
 static void mix_row(const patch *p, const channel *c, int row,
                     float *restrict mixed) {
   const guesses *g = &p->guess;
   int r = row + REACH, s = r + REACH;
-  asking q = {{0}, {0}, {0}, {0}, {0}};
+  asking q = {{0}, {0}, {0}, {0}};
   for (int k = 0; k < PATCH; k++) {
-    q.a[k] = (float)c->a[s][k + 2 * REACH];
-    q.b[k] = (float)c->b[s][k + 2 * REACH];
-    q.sharp[k] = g->sharp[r][k + REACH];
+    double mean = c->mean[s][k + 2 * REACH], half = c->half[s][k + 2 * REACH];
+    q.a[k] = (float)(mean + half);
+    q.b[k] = (float)(mean - half);
   }
   for (int v = row; v < row + WINDOW; v++)
     for (int u = 0; u < WINDOW; u++)
-      ask_neighbours(&q, &g->likely[v][u], &g->share[v][u]);
+      ask_neighbours(&q, &g->likely[v][u], &g->sharp[v][u], &g->share[v][u]);
   for (int k = 0; k < PATCH; k++)
     mixed[k] = q.all[k] > 0 ? q.sum[k] / q.all[k] : g->share[r][k + REACH];
 }
 
 // Add a channel to the terms of a row.  At edges the first guess is too low and
 // the second too high, by about as much; elsewhere they agree.
-static void add_terms(patch *p, const channel *c, int row,
-                      two_means_sums *sums) {
-  int r = row + REACH, s = r + REACH;
-  float mixed[PATCH];
+static void add_terms(patch *p, const channel *c, int row) {
+  const float *square = &p->guess.square[row + REACH][REACH];
+  const float *sure = &p->guess.sure[row + REACH][REACH];
+  const double *half = &c->half[row + 2 * REACH][2 * REACH];
+  const double *other = &c->other[row + 2 * REACH][2 * REACH];
+  float mixed[PATCH], shares[PATCH];
   mix_row(p, c, row, mixed);
   for (int k = 0; k < PATCH; k++) {
-    double both = sqrt((double)p->guess.first[r][k + REACH] * (double)mixed[k]);
-    double most = (double)p->guess.most[r][k + REACH];
-    double share = both < most ? both : most;
-    double half = (c->a[s][k + 2 * REACH] - c->b[s][k + 2 * REACH]) / 2;
-    p->terms[row][k] += share * half * half;
-    sums->other += share * c->other[s][k + 2 * REACH];
+    float both = sqrtf(mixed[k] / (square[k] + 0.01f));
+    float most = 1 / (sure[k] + 0.01f);
+    shares[k] = both < most ? both : most;
   }
+  for (int k = 0; k < PATCH; k++)
+    p->terms[row][k] += (double)shares[k] * (half[k] * half[k]);
+  for (int k = 0; k < PATCH; k++)
+    p->other[row][k] += (double)shares[k] * other[k];
 }
 
 static void see_pixel(patch *p, const two_means *t, int row, int column) {
   int x = p->x + column - 2 * REACH, y = p->y + row - 2 * REACH;
   size_t i = (size_t)y * (size_t)t->width + (size_t)x;
-  two_means_pixel pixel = {{0}, {0}, {0}};
+  two_means_pixel q = {{0}, {0}, {0}};
   bool there = x >= 0 && x < t->width && y >= 0 && y < t->height &&
-               t->pixel(t->self, i, &pixel);
+               t->pixel(t->self, i, &q);
   p->there[row][column] = there;
   for (int c = 0; c < 3; c++) {
-    p->seen[c].a[row][column] = there ? pixel.a[c] : 0;
-    p->seen[c].b[row][column] = there ? pixel.b[c] : 0;
-    p->seen[c].other[row][column] = there ? pixel.other[c] : 0;
+    p->seen[c].mean[row][column] = there ? (q.a[c] + q.b[c]) / 2 : 0;
+    p->seen[c].half[row][column] = there ? (q.a[c] - q.b[c]) / 2 : 0;
+    p->seen[c].other[row][column] = there ? q.other[c] : 0;
   }
 }
 
 static void see_pixels(patch *p, const two_means *t) {
   memset(p->terms, 0, sizeof p->terms);
+  memset(p->other, 0, sizeof p->other);
   for (int row = 0; row < p->rows + 4 * REACH; row++)
     for (int k = 0; k < SEEN; k++)
       see_pixel(p, t, row, k);
+  for (int row = REACH; row < p->rows + 3 * REACH; row++)
+    count_others(p, row);
 }
 
 // The sums of a patch, and its pixels.
@@ -229,15 +242,18 @@ typedef struct patch_sums {
 static void measure_patch(patch *p, patch_sums *out) {
   for (int c = 0; c < 3; c++) {
     for (int row = REACH; row < p->rows + 3 * REACH; row++)
-      guess_row(p, &p->seen[c], row);
+      expect_row(p, &p->seen[c], row, &p->guess);
+    for (int row = 0; row < p->rows + 2 * REACH; row++)
+      share_row(p, row, &p->guess);
     for (int row = 0; row < p->rows; row++)
-      add_terms(p, &p->seen[c], row, &out->sums);
+      add_terms(p, &p->seen[c], row);
   }
   for (int row = 0; row < p->rows; row++)
     for (int k = 0; k < PATCH; k++) {
       double term = p->terms[row][k];
       out->sums.square += term;
       out->sums.doubt += term * term;
+      out->sums.other += p->other[row][k];
       out->pixels += p->there[row + 2 * REACH][k + 2 * REACH];
     }
 }

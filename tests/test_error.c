@@ -6,7 +6,6 @@
 #include "halves.h"
 #include "num.h"
 #include "sampler.h"
-#include "two_means.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -258,115 +257,6 @@ static void dark_and_noisy(void **state) {
   assert_true(fabs(sum / (double)seeds - 1) < 0.1);
 }
 
-// Two means, one of which is wrong here and there; some pixels have none.
-enum { RAGGED_WIDTH = 23, RAGGED_HEIGHT = 10 };
-
-static bool two_pixels(const void *self, size_t i, two_means_pixel *out) {
-  (void)self;
-  rng r = rng_of(7, i, 0);
-  for (int c = 0; c < 3; c++) {
-    out->a[c] = truth(i) * (double)rng_next(&r);
-    out->b[c] = truth(i) * (double)rng_next(&r);
-    out->other[c] = (double)rng_next(&r);
-    if (rng_next(&r) < 0.05f) out->a[c] += 1000;
-  }
-  return i % 7 != 3;
-}
-
-// The mean of f of the other pixels of the block of pixel i; their number.
-static int of_others(double *mean, size_t i, int channel,
-                     double (*f)(double a, double b)) {
-  size_t x = i % RAGGED_WIDTH / 4 * 4, y = i / RAGGED_WIDTH / 4 * 4;
-  int n = 0;
-  *mean = 0;
-  for (size_t v = y; v < y + 4 && v < RAGGED_HEIGHT; v++)
-    for (size_t u = x; u < x + 4 && u < RAGGED_WIDTH; u++) {
-      two_means_pixel p;
-      size_t at = v * RAGGED_WIDTH + u;
-      if (at == i || !two_pixels(NULL, at, &p)) continue;
-      *mean += f(p.a[channel], p.b[channel]);
-      n++;
-    }
-  *mean /= n > 0 ? n : 1;
-  return n;
-}
-
-static double middle(double a, double b) {
-  return (a + b) / 2;
-}
-
-static double square(double a, double b) {
-  return middle(a, b) * middle(a, b);
-}
-
-static double apart(double a, double b) {
-  return (a - b) * (a - b) / 4;
-}
-
-// What is guessed of pixel i, written down as the book has it.
-typedef struct guess {
-  double mean, likely, first, most, sigma2;
-} guess;
-
-static guess guess_of(size_t i, int c) {
-  two_means_pixel p;
-  two_pixels(NULL, i, &p);
-  double mu, squares, noise, m = middle(p.a[c], p.b[c]);
-  double own = apart(p.a[c], p.b[c]);
-  int n = of_others(&mu, i, c, middle);
-  of_others(&squares, i, c, square);
-  of_others(&noise, i, c, apart);
-  if (n < 2) return (guess){m, -1, 1 / (fmax(m * m - own, 0) + 0.01), 100, 0};
-  double tau2 = fmax((squares - mu * mu) * n / (n - 1) - noise, 0);
-  double sigma2 = fmax(noise, own);
-  double trust = tau2 > 0 ? tau2 / (tau2 + sigma2) : 0;
-  double likely = mu + trust * (m - mu);
-  double sure = fmax(fmin(p.a[c], p.b[c]) - 2 * sqrt(noise), 0);
-  double expected = likely * likely + (1 - trust) * tau2 / 2;
-  return (guess){m, likely, 1 / (expected + 0.01), 1 / (sure * sure + 0.01),
-                 sigma2 + noise};
-}
-
-static double share_of(size_t i, int c) {
-  guess g = guess_of(i, c);
-  if (g.likely < 0) return g.first;
-  size_t x = i % RAGGED_WIDTH / 4 * 4, y = i / RAGGED_WIDTH / 4 * 4;
-  double sum = 0, all = 0;
-  for (size_t v = y; v < y + 4 && v < RAGGED_HEIGHT; v++)
-    for (size_t u = x; u < x + 4 && u < RAGGED_WIDTH; u++) {
-      two_means_pixel p;
-      size_t at = v * RAGGED_WIDTH + u;
-      if (!two_pixels(NULL, at, &p)) continue;
-      double likely = guess_of(at, c).likely, off = g.mean - likely;
-      double fit = pow(1 + off * off / g.sigma2, -4);
-      sum += fit / (likely * likely + 0.01);
-      all += fit;
-    }
-  return fmin(sqrt(g.first * sum / all), g.most);
-}
-
-// All pixels of a block at once are those one by one, for any threads.
-static void a_block_is_its_pixels(void **state) {
-  (void)state;
-  arena mem = {0};
-  two_means t = {RAGGED_WIDTH, RAGGED_HEIGHT, NULL, two_pixels};
-  two_means_sums is = {0, 0, 0}, alone = two_means_measure(&t, NULL);
-  two_means_pixel p;
-  double n = 0;
-  for (size_t i = 0; i < RAGGED_WIDTH * RAGGED_HEIGHT; i++)
-    for (int c = 0; c < 3 && two_pixels(NULL, i, &p); c++, n++) {
-      is.square += share_of(i, c) * apart(p.a[c], p.b[c]);
-      is.other += share_of(i, c) * p.other[c];
-    }
-  assert_true(fabs(alone.square * n / is.square - 1) < 1e-5);
-  assert_true(fabs(alone.other * n / is.other - 1) < 1e-5);
-  pool *all = pool_new(&mem, 3);
-  two_means_sums three = two_means_measure(&t, all);
-  assert_true(three.square == alone.square && three.other == alone.other);
-  pool_free(all);
-  arena_free(&mem);
-}
-
 // What a walker is asked for through halves: each half its own pixel, and the
 // samples of that in turn.
 typedef struct asked {
@@ -420,7 +310,6 @@ int main(void) {
       cmocka_unit_test(limits_hold),
       cmocka_unit_test(doubling_sees_evenness),
       cmocka_unit_test(dark_and_noisy),
-      cmocka_unit_test(a_block_is_its_pixels),
       cmocka_unit_test(each_half_its_own),
   };
   return cmocka_run_group_tests_name("error", tests, NULL, NULL);

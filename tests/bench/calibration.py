@@ -2,8 +2,9 @@
 """Does facet know its error?  Renders scenes with many seeds and compares what
 each run printed with how far its picture is from the truth.
 
-    tests/bench/calibration.py [--seeds 50] [--size 96x60] [--facet build/facet]
-        [--scenes cornell,...] [--settings "--error 0.1;--spp 64;..."] [--truth SPP]
+    tests/bench/calibration.py [--seeds 50] [--first-seed 0] [--size 96x60]
+        [--facet build/facet] [--scenes cornell,...]
+        [--settings "--error 0.1;--spp 64;..."] [--truth SPP]
 
 The truth is the mean of all other seeds' pictures at all settings, weighted by
 their samples; what it lacks itself is subtracted.  ratio is printed / true; the
@@ -46,6 +47,7 @@ def relmse(x, ref):
 def main():
     p = argparse.ArgumentParser()
     p.add_argument("--seeds", type=int, default=50)
+    p.add_argument("--first-seed", type=int, default=0)
     p.add_argument("--size", default="96x60")
     p.add_argument("--facet", default="build/facet")
     p.add_argument("--scenes", default=SCENES)
@@ -59,7 +61,7 @@ def main():
     good = runs = 0
     out = os.path.join(tempfile.mkdtemp(), "x.pfm")
     for scene in a.scenes.split(","):
-        results = {s: [render(a, scene, s, k, out) for k in range(a.seeds)] for s in settings}
+        results = {s: [render(a, scene, s, a.first_seed + k, out) for k in range(a.seeds)] for s in settings}
         # Sums over all settings of a seed, and their number of samples.
         n = len(results[settings[0]][0][0])
         total, weight = [0.0] * n, 0.0
