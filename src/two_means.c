@@ -8,16 +8,13 @@
 #include <math.h>
 #include <string.h>
 
-// A pixel asks those of a window around it: REACH to each side.  A patch is
-// what a thread does at once.  The pixels around it are guessed, too, and those
-// around these are seen.  All sizes are constants, for vector instructions.
-enum {
-  REACH = 2,
-  WINDOW = 2 * REACH + 1,
-  PATCH = 32,
-  GUESSED = PATCH + 2 * REACH,
-  SEEN = GUESSED + 2 * REACH,
-};
+// A pixel asks those of a window around it: REACH to each side.
+enum { REACH = 2, WINDOW = 2 * REACH + 1 };
+
+// A side of a patch, which is what a thread does at once.  The pixels around it
+// are guessed, too, and those around these are seen.  All are constants, for
+// vector instructions.
+enum { PATCH = 32, GUESSED = PATCH + 2 * REACH, SEEN = GUESSED + 2 * REACH };
 
 // One channel of the pixels that are seen; 0 where there is none.
 typedef struct channel {
