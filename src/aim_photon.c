@@ -183,7 +183,7 @@ static void fly(void *context, size_t item, int worker) {
   while (n > 0) {
     for (size_t i = 0; i < n; i++)
       room->rays[i] = room->flights[i].ray;
-    tracer_closest_many(&w->tracer, room->rays, room->hits, n);
+    tracer_closest_many(&w->tracer, room->rays, NULL, room->hits, n);
     size_t next = 0;
     for (size_t i = 0; i < n; i++) {
       flight f = room->flights[i];

@@ -240,6 +240,7 @@ static int run_path(render_job *j) {
   if (code != EXIT_DONE) return code;
   bool open = j->settings.spp == SPP_WITHOUT_LIMIT;
   double rays = cmd_tree_rays(s->width, s->height, open ? 0 : j->settings.spp);
+  j->tree.paths = true;
   j->tree.rays = rays / (j->settings.shards > 0 ? j->settings.shards : 1);
   const char *slash = strrchr(s->scene.path, '/');
   if (!given(j, OPT_NO_CACHE))

@@ -3,6 +3,7 @@
 #include "cmd_tree.h"
 
 #include "clock.h"
+#include "wide_patch.h"
 
 #include <math.h>
 
@@ -65,14 +66,39 @@ static void save_wide(cmd_tree *t, const tree_cache *c, pool *threads) {
   t->save_seconds = clock_seconds() - start;
 }
 
+// Look for patches where the rays repay it, or forget those that another run
+// has found where nothing is to be skipped; true when the cache has not seen
+// them.
+static bool find_patches(cmd_tree *t, const options *o, const mesh *m,
+                         arena *mem, pool *threads) {
+  wide_tree *w = &t->wide;
+  double least = (double)WIDE_PATCH_RAYS * (double)m->triangle_count;
+  if (o->value[OPT_NO_SKIP].given) {
+    w->patch = NULL;
+    w->patch_count = 0;
+    return false;
+  }
+  if (!t->paths || w->nodes == NULL || w->patches_looked_for ||
+      !(t->rays >= least))
+    return false;
+  double start = clock_seconds();
+  wide_patches_find(w, (uint32_t)m->triangle_count, mem, threads);
+  t->seconds += clock_seconds() - start;
+  return true;
+}
+
 void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
                     pool *threads) {
   long long word = o->value[OPT_BVH].words;
   bool wide = word != TREE_BINARY && word != TREE_BRUTE;
   arena scratch = {0};
   tree_cache cache = {.name = NULL};
-  *out = (cmd_tree){.rays = out->rays, .name = out->name};
-  if (load_wide(out, &cache, word, m, mem, threads)) return;
+  *out = (cmd_tree){
+      .rays = out->rays, .paths = out->paths, .name = out->name};
+  if (load_wide(out, &cache, word, m, mem, threads)) {
+    if (find_patches(out, o, m, mem, threads)) save_wide(out, &cache, threads);
+    return;
+  }
   build_binary(out, word, m, wide ? &scratch : mem, threads);
   out->seconds = out->binary.seconds;
   if (wide) wide_tree_build(&out->wide, &out->binary, mem, threads);
@@ -83,6 +109,7 @@ void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
     return;
   }
   out->seconds += out->wide.seconds;
+  find_patches(out, o, m, mem, threads);
   out->tracer = wide_tracer(&out->wide);
   out->binary.nodes = NULL;
   out->binary.order = NULL;
@@ -105,6 +132,7 @@ void cmd_tree_json(json *j, const cmd_tree *t) {
   json_number(j, "cost", t->binary.cost);
   json_count(j, "parts", t->binary.refs - t->binary.kept);
   json_number(j, "rays_expected", t->rays);
+  json_flag(j, "patches", t->wide.patch != NULL);
   int depth = wide ? t->wide.depth : t->binary.depth;
   json_count(j, "depth", (unsigned long long)depth);
   json_count(j, "dropped", t->binary.dropped);

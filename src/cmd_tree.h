@@ -18,14 +18,15 @@ typedef struct cmd_tree {
   double save_seconds;  // to put it into the cache; 0: it was not
   double rays;          // how many are expected
   const char *name;     // of the mesh, for the cache; NULL: do without
+  bool paths;           // they leave surfaces, and say which
   bool from_cache;
 } cmd_tree;
 
 // How many rays a picture takes, roughly; spp 0: nobody knows.
 double cmd_tree_rays(int width, int height, int spp);
 
-// `rays` and `name` of *out are given: rays tell auto whether cutting triangles
-// pays.
+// `rays`, `paths` and `name` of *out are given: rays tell auto whether cutting
+// triangles pays, and for paths whether patches do.
 void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
                     pool *threads);
 

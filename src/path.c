@@ -196,6 +196,14 @@ static bool step(wave *w, stop *s, ray *r) {
   return false;
 }
 
+// The triangle that a path's next ray climbs away from.  One that came from
+// below its plane and goes on above begins above only if it passes through.
+static uint32_t left_by(const wave *w, const stop *s, const ray *r) {
+  const surface *at = &s->at->at;
+  bool above = at->front || !(w->paths[s->which].pdf > 0);
+  return above && ray_climbs(r->d, at->ng) ? at->triangle : HIT_NONE;
+}
+
 // Shade n of the paths whose rays have met a surface.
 static void step_some(wave *w, size_t n) {
   met *m = w->met;
@@ -206,6 +214,7 @@ static void step_some(wave *w, size_t n) {
     s.which = m->which[i];
     if (!step(w, &s, &r)) continue;
     w->alive[w->next] = s.which;
+    w->left[w->next] = left_by(w, &s, &r);
     w->rays[w->next++] = r;
   }
 }
@@ -213,7 +222,8 @@ static void step_some(wave *w, size_t n) {
 // One step of every path on its way.
 static void step_all(wave *w) {
   met *m = w->met;
-  tracer_closest_many(&w->by->world->tracer, w->rays, w->hits, w->count);
+  tracer_closest_many(&w->by->world->tracer, w->rays,
+                      w->steps > 0 ? w->left : NULL, w->hits, w->count);
   w->stats->rays += w->count;
   w->next = w->shadow_count = 0;
   size_t n = 0;

@@ -9,6 +9,7 @@ wave *wave_room(const path_tracer *by, arena *mem) {
   w->alive = ARENA_NEW(mem, uint32_t, n);
   w->rays = ARENA_NEW(mem, ray, n);
   w->shadow_rays = ARENA_NEW(mem, ray, m);
+  w->left = ARENA_NEW(mem, uint32_t, n);
   w->hits = ARENA_NEW(mem, hit, n);
   w->shadows = ARENA_NEW(mem, shadow, m);
   w->blocked = ARENA_NEW(mem, bool, m);

@@ -51,6 +51,7 @@ typedef struct wave {
   path *paths;
   uint32_t *alive;
   ray *rays, *shadow_rays;
+  uint32_t *left;  // by ray: the triangle that it climbs away from
   hit *hits;
   shadow *shadows;
   bool *blocked;

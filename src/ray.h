@@ -39,16 +39,28 @@ static inline vec3 ray_flush(vec3 d) {
                 fabsf(d.z) < FLT_MIN ? 0 : d.z};
 }
 
+// The least cosine between a ray and a normal that it climbs along.
+#define RAY_CLIMB 0x1p-10f
+
+// Whether a ray of unit direction d climbs away from a facet of unit normal n,
+// if it begins above its plane or in it: it then meets nothing below.
+static inline bool ray_climbs(vec3 d, vec3 n) {
+  return vec3_dot(d, n) > RAY_CLIMB;
+}
+
 // Something that can be asked for hits: a list, a tree, a wider tree.  closest
 // returns false and leaves *h alone on a miss; of hits at equal t it gives the
 // lowest triangle number.  any says whether anything lies in [tmin, tmax].
 // The other two ask the same of n rays at once, for trees that gain by it, and
-// may be NULL: hits[i] is t = tmax and HIT_NONE where ray i misses.
+// may be NULL: hits[i] is t = tmax and HIT_NONE where ray i misses.  left[i],
+// where left is not NULL, is the triangle that ray i climbs away from (see
+// ray_climbs), so that a tree may look elsewhere, or HIT_NONE.
 typedef struct tracer {
   const void *tree;
   bool (*closest)(const void *tree, const ray *r, hit *h);
   bool (*any)(const void *tree, const ray *r);
-  void (*closest_many)(const void *tree, const ray *rays, hit *hits, size_t n);
+  void (*closest_many)(const void *tree, const ray *rays, const uint32_t *left,
+                       hit *hits, size_t n);
   void (*any_many)(const void *tree, const ray *rays, bool *blocked, size_t n);
 } tracer;
 

@@ -41,7 +41,8 @@ static void trace_closest(const trace_job *job, size_t begin, size_t end) {
   const tracer *t = &job->tree;
   const ray *rays = job->set->rays;
   if (t->closest_many != NULL) {
-    t->closest_many(t->tree, rays + begin, job->hits + begin, end - begin);
+    t->closest_many(t->tree, rays + begin, NULL, job->hits + begin,
+                    end - begin);
     return;
   }
   for (size_t i = begin; i < end; i++) {

@@ -20,6 +20,13 @@ SIMD f8 f8_choose(f8 a, const uint32_t at[8]) {
   return (f8){_mm256_permutevar8x32_ps(a.v, i)};
 }
 
+// Bit k: whether lane k of eight numbers is x.
+SIMD uint32_t lanes_equal(const uint32_t v[8], uint32_t x) {
+  __m256i a = _mm256_loadu_si256((const __m256i *)(const void *)v);
+  __m256i e = _mm256_cmpeq_epi32(a, _mm256_set1_epi32((int)x));
+  return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(e));
+}
+
 // Of each pair of four rows, 64 bits from here and there.
 SIMD void f8_mix(f8 to[4], f8 a, f8 b, f8 c, f8 d) {
   __m256 ab = _mm256_unpacklo_ps(a.v, b.v), ba = _mm256_unpackhi_ps(a.v, b.v);
@@ -46,6 +53,13 @@ SIMD void f8_transpose(f8 v[8]) {
 }
 
 #else
+
+SIMD uint32_t lanes_equal(const uint32_t v[8], uint32_t x) {
+  uint32_t m = 0;
+  for (int k = 0; k < 8; k++)
+    m |= (uint32_t)(v[k] == x) << k;
+  return m;
+}
 
 SIMD f8 f8_choose(f8 a, const uint32_t at[8]) {
   float from[8], to[8];

@@ -5,11 +5,13 @@
 
 #include "ray.h"
 
-// The answers to n rays, together where t can, else one by one.
+// The answers to n rays, together where t can, else one by one; left as in
+// ray.h.
 static inline void tracer_closest_many(const tracer *t, const ray *rays,
-                                       hit *hits, size_t n) {
+                                       const uint32_t *left, hit *hits,
+                                       size_t n) {
   if (t->closest_many != NULL) {
-    t->closest_many(t->tree, rays, hits, n);
+    t->closest_many(t->tree, rays, left, hits, n);
     return;
   }
   for (size_t i = 0; i < n; i++) {

@@ -8,7 +8,7 @@
 
 // Another number when a builder makes another tree, or nodes or triangles are
 // laid out in another way: old files are then ignored.
-enum { VERSION = 2 };
+enum { VERSION = 3 };
 
 static const char KIND[] = "tree";
 
@@ -19,6 +19,7 @@ typedef struct tree_facts {
   double large, cost, cut_rays;
   uint64_t nodes, triangles, depth;
   uint64_t binary_nodes, refs, kept, dropped, binary_depth;
+  uint64_t looked_for, patches;
 } tree_facts;
 
 static tree_facts facts_of(const wide_tree *t, const bvh *b) {
@@ -32,7 +33,9 @@ static tree_facts facts_of(const wide_tree *t, const bvh *b) {
                   .refs = b->refs,
                   .kept = b->kept,
                   .dropped = b->dropped,
-                  .binary_depth = (uint64_t)b->depth};
+                  .binary_depth = (uint64_t)b->depth,
+                  .looked_for = t->patches_looked_for,
+                  .patches = t->patch_count};
   memcpy(f.lo, t->lo, sizeof f.lo);
   memcpy(f.hi, t->hi, sizeof f.hi);
   return f;
@@ -45,6 +48,8 @@ static void set_facts(wide_tree *t, bvh *b, const tree_facts *f) {
   t->node_count = (uint32_t)f->nodes;
   t->triangle_count = (uint32_t)f->triangles;
   t->depth = (int)f->depth;
+  t->patches_looked_for = f->looked_for != 0;
+  t->patch_count = (uint32_t)f->patches;
   b->cost = f->cost;
   b->cut_rays = f->cut_rays;
   b->node_count = (uint32_t)f->binary_nodes;
@@ -78,10 +83,13 @@ static bool take_arrays(cache_file *f, wide_tree *t, arena *mem,
                         pool *threads) {
   size_t nodes = t->node_count * sizeof *t->nodes;
   size_t triangles = (size_t)t->triangle_count * 10 * sizeof *t->triangles;
-  if (nodes + triangles != f->left) return false;
+  size_t patches = t->patch_count * sizeof *t->patch;
+  if (nodes + triangles + patches != f->left) return false;
   wide_tree_room(t, mem);
+  if (patches > 0) t->patch = ARENA_NEW(mem, uint32_t, t->patch_count);
   return cache_take(f, t->nodes, nodes, threads) &&
-         cache_take(f, t->triangles, triangles, threads);
+         cache_take(f, t->triangles, triangles, threads) &&
+         (patches == 0 || cache_take(f, t->patch, patches, threads));
 }
 
 // The tree of one key, if it is the one that the builder would make for so many
@@ -125,21 +133,22 @@ void tree_cache_save(const tree_cache *c, const wide_tree *t, const bvh *b,
   arena mem = {0};
   cache_file there;
   cache_key key = key_of(c, c->cuts && c->rays > b->cut_rays);
-  if (cache_open(&there, KIND, key)) {  // by another process, meanwhile
-    cache_close(&there);
+  if (!t->patches_looked_for && cache_open(&there, KIND, key)) {
+    cache_close(&there);  // by another process, meanwhile
     return;
   }
   tree_facts facts = facts_of(t, b);
   cache_part parts[] = {
       {&facts, sizeof facts},
       {t->nodes, t->node_count * sizeof *t->nodes},
-      {t->triangles, (size_t)t->triangle_count * 10 * sizeof *t->triangles}};
+      {t->triangles, (size_t)t->triangle_count * 10 * sizeof *t->triangles},
+      {t->patch, t->patch_count * sizeof *t->patch}};
   cache_item item = {.kind = KIND,
                      .key = key,
                      .what = arena_format(&mem, "%u triangles, %s",
                                           b->triangle_count, c->name),
                      .parts = parts,
-                     .count = 3};
+                     .count = t->patch != NULL ? 4 : 3};
   cache_save(&item, most, threads);
   arena_free(&mem);
 }

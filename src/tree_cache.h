@@ -32,7 +32,9 @@ void tree_cache_begin(tree_cache *c, const bvh *b, size_t position_count,
 bool tree_cache_load(const tree_cache *c, wide_tree *t, bvh *b, arena *mem,
                      pool *threads);
 
-// Keep a tree that was built, unless it is there already; see cache_save.
+// Keep a tree that was built, in place of one whose patches nobody has looked
+// for; one that is no more than what is there already is not written.  See
+// cache_save.
 void tree_cache_save(const tree_cache *c, const wide_tree *t, const bvh *b,
                      uint64_t most, pool *threads);
 

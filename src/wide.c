@@ -32,9 +32,13 @@ tracer wide_tracer_at(const wide_tree *t, const wide_level *level) {
                   level->any_many};
 }
 
-tracer wide_tracer(const wide_tree *t) {
+const wide_level *wide_level_best(void) {
   int level = WIDE_LEVELS - 1;
   while (wide_level_at(level) == NULL)
     level--;
-  return wide_tracer_at(t, wide_level_at(level));
+  return wide_level_at(level);
+}
+
+tracer wide_tracer(const wide_tree *t) {
+  return wide_tracer_at(t, wide_level_best());
 }

@@ -13,6 +13,9 @@ enum { WIDE_LEVELS = 3 };
 // build does not have it.  Level 0 is always there.
 const wide_level *wide_level_at(int level);
 
+// The highest that there is.
+const wide_level *wide_level_best(void);
+
 // The tracer with the highest level that this machine has.  closest, any and
 // both for many rays agree to the bit with the bvh and the list, on all levels.
 tracer wide_tracer(const wide_tree *t);

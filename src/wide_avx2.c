@@ -7,5 +7,5 @@
 
 const wide_level wide_level_avx2 = {"avx2", WIDE_KERNEL_ENTRIES};
 #else
-const wide_level wide_level_avx2 = {"avx2", NULL, NULL, NULL, NULL, NULL};
+const wide_level wide_level_avx2 = {.name = "avx2"};
 #endif

@@ -7,5 +7,5 @@
 
 const wide_level wide_level_avx512 = {"avx512", WIDE_KERNEL_ENTRIES};
 #else
-const wide_level wide_level_avx512 = {"avx512", NULL, NULL, NULL, NULL, NULL};
+const wide_level wide_level_avx512 = {.name = "avx512"};
 #endif

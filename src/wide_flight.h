@@ -25,7 +25,8 @@ typedef struct flight {
   wide_walk w;
   uint32_t index, next, top;
   uint32_t key[FLIGHT_STACK], child[FLIGHT_STACK];
-  uint32_t spare[23];
+  uint32_t patch;  // the child to pass over; 0: none
+  uint32_t spare[22];
 } flight;
 
 _Static_assert(sizeof(flight) % 128 == 64, "an odd number of lines");
@@ -82,6 +83,15 @@ SIMD void flights_next(const flight_list *of, const wide_tree *t,
   l->nodes.count = nodes;
   l->leaves.count = leaves;
   l->ended.count = ended;
+}
+
+// Ask for what flights_next did not: the rest of leaves.
+SIMD void flights_expect(const flight_list *of, const wide_tree *t) {
+  for (uint32_t i = 0; i < of->count; i++) {
+    const char *at = child_place(t, of->at[i]->next);
+    __builtin_prefetch(at + 128);
+    __builtin_prefetch(at + 192);
+  }
 }
 
 // Forget what the ray enters behind its new best hit.

@@ -6,6 +6,7 @@
 #ifndef WIDE_KERNEL_H
 #define WIDE_KERNEL_H
 
+#include "wide_below.h"
 #include "wide_single.h"
 #include "wide_together.h"
 
@@ -30,8 +31,8 @@ static bool kernel_any(const void *tree, const ray *r) {
   return walk_start(&w, tree, r) && walk_tree(&w, tree, true, NULL);
 }
 
-static void kernel_closest_many(const void *tree, const ray *rays, hit *hits,
-                                size_t n) {
+static void kernel_closest_many(const void *tree, const ray *rays,
+                                const uint32_t *left, hit *hits, size_t n) {
   if (((const wide_tree *)tree)->depth > FLIGHT_DEPTH || n > UINT32_MAX) {
     for (size_t i = 0; i < n; i++) {
       hits[i] = (hit){.t = rays[i].tmax, .triangle = HIT_NONE};
@@ -42,6 +43,7 @@ static void kernel_closest_many(const void *tree, const ray *rays, hit *hits,
   stream s;
   s.t = tree;
   s.rays = rays;
+  s.left = s.t->patch != NULL ? left : NULL;
   s.hits = hits;
   s.blocked = NULL;
   stream_run(&s, n, false);
@@ -57,6 +59,7 @@ static void kernel_any_many(const void *tree, const ray *rays, bool *blocked,
   stream s;
   s.t = tree;
   s.rays = rays;
+  s.left = NULL;
   s.hits = NULL;
   s.blocked = blocked;
   if (s.t->nodes != NULL && crowd_likely(rays, n))
@@ -68,6 +71,6 @@ static void kernel_any_many(const void *tree, const ray *rays, bool *blocked,
 // The entries of this level.
 #define WIDE_KERNEL_ENTRIES \
   kernel_closest, kernel_any, kernel_closest_many, kernel_any_many, \
-      kernel_closest_counted
+      kernel_closest_counted, kernel_patches
 
 #endif

@@ -5,6 +5,10 @@
 
 #include "wide_steps.h"
 
+static inline uint32_t patch_of(const stream *s, uint32_t i) {
+  return s->left[i] != HIT_NONE ? s->t->patch[s->left[i]] : 0;
+}
+
 // Make the next rays of the stream ready.
 SIMD void stream_ready(stream *s, bool any) {
   ready_rows *q = &s->ready;
@@ -24,6 +28,7 @@ SIMD void stream_ready(stream *s, bool any) {
       q->from[i] = 0;
     }
     row[i] = (const char *)&s->rays[q->index[i]];
+    q->patch[i] = s->left != NULL ? patch_of(s, q->index[i]) : 0;
   }
   s->taken += q->count;
   f8_columns(v, row, 0);
@@ -56,6 +61,7 @@ SIMD bool flight_start(stream *s, flight *f, bool any) {
     walk_row(&f->w, 3, q->row[3][k]);
     f->w.r = &s->rays[i];
     f->index = i;
+    f->patch = q->patch[k];
     f->child[0] = FLIGHT_END;
     f->next = q->from[k];
     f->top = 1;

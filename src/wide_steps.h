@@ -12,7 +12,7 @@ enum { STREAM = 8192 };
 // `can` is set; `next` is the one to begin with, of `count`.
 typedef struct ready_rows {
   float row[ROWS][8][8];
-  uint32_t index[8], from[8];
+  uint32_t index[8], from[8], patch[8];
   uint32_t can, next, count;
 } ready_rows;
 
@@ -22,6 +22,7 @@ typedef struct ready_rows {
 typedef struct stream {
   const wide_tree *t;
   const ray *rays;
+  const uint32_t *left;  // NULL: not known, or no patches
   hit *hits;
   bool *blocked;
   uint32_t count, taken;
@@ -39,7 +40,9 @@ SIMD void stream_nodes(const wide_tree *t, const flight_list *of, bool any) {
   uint32_t mask[FLIGHTS];
   for (uint32_t i = 0; i < of->count; i++) {
     const flight *f = of->at[i];
-    mask[i] = cut_node(&f->w, &t->nodes[f->next], &near[i]);
+    const wide_node *n = &t->nodes[f->next];
+    mask[i] = cut_node(&f->w, n, &near[i]);
+    if (!any) mask[i] &= ~lanes_equal(n->child, f->patch);
   }
   for (uint32_t i = 0; i < of->count; i++) {
     flight *f = of->at[i];
@@ -106,15 +109,6 @@ SIMD void stream_leaves(stream *s, const flight_list *of, bool any) {
   s->pending.count = count;
   for (uint32_t i = 0; i < count; i += 8)
     stream_settle(s, i, any);
-}
-
-// Ask for what flights_next did not: the rest of leaves.
-SIMD void stream_expect(const wide_tree *t, const flight_list *of) {
-  for (uint32_t i = 0; i < of->count; i++) {
-    const char *at = child_place(t, of->at[i]->next);
-    __builtin_prefetch(at + 128);
-    __builtin_prefetch(at + 192);
-  }
 }
 
 #endif

@@ -20,7 +20,7 @@ SIMD void stream_trace(stream *s, bool any) {
   }
   while (now->nodes.count + now->leaves.count > 0) {
     next->nodes.count = next->leaves.count = next->ended.count = 0;
-    stream_expect(s->t, &now->leaves);
+    flights_expect(&now->leaves, s->t);
     stream_nodes(s->t, &now->nodes, any);
     stream_leaves(s, &now->leaves, any);
     flights_next(&now->nodes, s->t, next);
@@ -64,6 +64,7 @@ SIMD void stream_run(stream *s, size_t n, bool any) {
     stream_trace(s, any);
     n -= size;
     s->rays += size;
+    if (s->left != NULL) s->left += size;
     if (any)
       s->blocked += size;
     else

@@ -260,5 +260,6 @@ void wide_tree_build(wide_tree *out, const bvh *b, arena *mem, pool *threads) {
 
 size_t wide_tree_bytes(const wide_tree *t) {
   return t->node_count * sizeof(wide_node) +
-         (size_t)t->triangle_count * 10 * sizeof(uint32_t);
+         (size_t)t->triangle_count * 10 * sizeof(uint32_t) +
+         t->patch_count * sizeof(uint32_t);
 }

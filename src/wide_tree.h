@@ -27,6 +27,10 @@ typedef struct wide_tree {
   uint32_t node_count, triangle_count;
   int depth;
   double seconds;  // to make it of the bvh
+  // By number of triangle, its patch (wide_patch.h), or 0; NULL: none is known.
+  uint32_t *patch;
+  uint32_t patch_count;    // triangles that may have one, if patch is not NULL
+  bool patches_looked_for;
 } wide_tree;
 
 // No triangle more can be numbered by a child.
@@ -49,8 +53,16 @@ void wide_tree_build(wide_tree *out, const bvh *b, arena *mem, pool *threads);
 // Room in mem for the nodes and triangles that t counts.
 void wide_tree_room(wide_tree *t, arena *mem);
 
-// Bytes of nodes and triangles.
+// Bytes of nodes, triangles and patches.
 size_t wide_tree_bytes(const wide_tree *t);
+
+// A leaf, the node that it is a child of, and the parent of every node; and by
+// how much n . x of unit n may be wrong in single precision.
+typedef struct wide_leaf_place {
+  const uint32_t *parent;
+  uint32_t node, leaf;
+  float unsure;
+} wide_leaf_place;
 
 // The instructions that a kernel was compiled for, and its entries; tree is a
 // wide_tree.  NULL entries where the compiler could not make them.
@@ -58,11 +70,16 @@ typedef struct wide_level {
   const char *name;
   bool (*closest)(const void *tree, const ray *r, hit *h);
   bool (*any)(const void *tree, const ray *r);
-  void (*closest_many)(const void *tree, const ray *rays, hit *hits, size_t n);
+  void (*closest_many)(const void *tree, const ray *rays, const uint32_t *left,
+                       hit *hits, size_t n);
   void (*any_many)(const void *tree, const ray *rays, bool *blocked, size_t n);
   // closest, counting into *v; a leaf is a node.
   bool (*closest_counted)(const void *tree, const ray *r, hit *h,
                           bvh_visits *v);
+  // The patches of the triangles of a leaf, or 0 (wide_patch.h); how many have
+  // more than the leaf.
+  uint32_t (*patches)(const wide_tree *t, const wide_leaf_place *at,
+                      uint32_t *patch);
 } wide_level;
 
 #endif

@@ -48,7 +48,7 @@ static bool many_agree(answers *a, const wide_grove *w) {
   int at = 0;
   for (size_t k = 0; k < sizeof lengths / sizeof *lengths; k++) {
     size_t n = (size_t)lengths[k];
-    w->level->closest_many(&w->wide, a->rays + at, a->many + at, n);
+    w->level->closest_many(&w->wide, a->rays + at, NULL, a->many + at, n);
     w->level->any_many(&w->wide, a->rays + at, a->blocked + at, n);
     at += lengths[k];
   }
@@ -256,7 +256,7 @@ static void no_rays(void **unused) {
     if (l == NULL) continue;
     hit h[N], one;
     bool blocked[N];
-    l->closest_many(&w.wide, rays, h, N);
+    l->closest_many(&w.wide, rays, NULL, h, N);
     l->any_many(&w.wide, rays, blocked, N);
     for (int i = 0; i < N; i++) {
       bool hits = i == 3 || i == 11;

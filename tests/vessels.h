@@ -95,7 +95,7 @@ static inline void vessel_try(void *context, size_t item, int worker) {
     vec3 o = vec3_add(v->centre, vec3_mul(v->room, shape_point(&state)));
     rays[i] = ray_from(o, vec3_sub(vessel_aim(&v->s, item % 2, &state), o));
   }
-  f->many.closest_many(&f->wide, rays, hits, VESSEL_BATCH);
+  f->many.closest_many(&f->wide, rays, NULL, hits, VESSEL_BATCH);
   f->leaks[item] = 0;
   for (int i = 0; i < VESSEL_BATCH; i++) {
     hit h;

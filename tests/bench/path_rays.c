@@ -41,10 +41,11 @@ static void note(watch *w, int any, double start, size_t n) {
   w->rays[any] += n;
 }
 
-static void closest_many(const void *self, const ray *r, hit *hits, size_t n) {
+static void closest_many(const void *self, const ray *r, const uint32_t *left,
+                         hit *hits, size_t n) {
   watch *w = (watch *)self;
   double start = thread_seconds();
-  w->by.closest_many(w->by.tree, r, hits, n);
+  w->by.closest_many(w->by.tree, r, left, hits, n);
   note(w, 0, start, n);
 }
 

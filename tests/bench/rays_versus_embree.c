@@ -96,7 +96,7 @@ static void facet_many(tracer t, const ray_set *s, hit *hits) {
   for (size_t i = 0; i < s->count; i += CHUNK) {
     size_t n = s->count - i < CHUNK ? s->count - i : CHUNK;
     if (!s->any) {
-      t.closest_many(t.tree, s->rays + i, hits + i, n);
+      t.closest_many(t.tree, s->rays + i, NULL, hits + i, n);
       continue;
     }
     t.any_many(t.tree, s->rays + i, blocked, n);
