@@ -93,8 +93,7 @@ void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
   bool wide = word != TREE_BINARY && word != TREE_BRUTE;
   arena scratch = {0};
   tree_cache cache = {.name = NULL};
-  *out = (cmd_tree){
-      .rays = out->rays, .paths = out->paths, .name = out->name};
+  *out = (cmd_tree){.rays = out->rays, .paths = out->paths, .name = out->name};
   if (load_wide(out, &cache, word, m, mem, threads)) {
     if (find_patches(out, o, m, mem, threads)) save_wide(out, &cache, threads);
     return;

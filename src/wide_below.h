@@ -11,7 +11,7 @@ enum { PATCH_LOOKS = 128 };
 
 // Children of a node but one wait, if they reach a plane of m that is alive.
 SIMD void meet_node(leaf_planes *p, const wide_node *w, uint32_t but,
-                      uint32_t m) {
+                    uint32_t m) {
   f8 side[2][3];
   uint8_t reached[WIDE] = {0};
   uint32_t any = 0;
@@ -38,12 +38,13 @@ SIMD void meet_node(leaf_planes *p, const wide_node *w, uint32_t but,
 
 // All below a node but what is below one of its children.
 SIMD void meet_below(leaf_planes *p, const wide_tree *t, uint32_t node,
-                       uint32_t but) {
+                     uint32_t but) {
   p->waiting = 0;
   meet_node(p, &t->nodes[node], but, 0xff);
   while (p->waiting > 0 && p->alive != 0) {
     uint32_t child = p->child[--p->waiting], m = p->reached[p->waiting];
-    if (p->looks++ == PATCH_LOOKS || p->waiting > PATCH_WAITING - WIDE) p->alive = 0;
+    if (p->looks++ == PATCH_LOOKS || p->waiting > PATCH_WAITING - WIDE)
+      p->alive = 0;
     if (child & WIDE_LEAF_BIT)
       meet_leaf(p, t, child, m);
     else

@@ -9,7 +9,7 @@
 
 // Nodes that a thread takes at a time, and of how many of these one is looked
 // at first.
-enum { CHUNK = 64, SAMPLE = 16 };
+enum { CHUNK = 16, SAMPLE = 16 };
 
 // What finding has at hand: the parent of each node, and the patch of each
 // triangle of a leaf; some nodes at first, in turn all.
@@ -25,16 +25,16 @@ typedef struct patch_search {
 
 static void search_chunk(void *context, size_t item, int worker) {
   const patch_search *s = context;
-  const uint32_t chunk = (uint32_t)item * s->every;
+  const uint32_t chunk = (uint32_t)item * s->every + s->every / 2;
   uint32_t inner = 0, triangles = 0;
   for (uint32_t i = chunk * CHUNK; i < (chunk + 1) * CHUNK; i++) {
-    if (i == s->t->node_count) break;
+    if (i >= s->t->node_count) break;
     const wide_node *w = &s->t->nodes[i];
     for (uint32_t k = 0; k < WIDE; k++) {
       if ((w->valid >> k & 1) == 0 || !(w->child[k] & WIDE_LEAF_BIT)) continue;
       const wide_leaf_place at = {s->parent, i, w->child[k], s->unsure};
-      inner += s->level->patches(
-          s->t, &at, s->patch + wide_leaf_first(w->child[k]));
+      inner +=
+          s->level->patches(s->t, &at, s->patch + wide_leaf_first(w->child[k]));
       triangles += wide_leaf_count(w->child[k]);
     }
   }
@@ -43,9 +43,10 @@ static void search_chunk(void *context, size_t item, int worker) {
   (void)worker;
 }
 
-// Search one chunk of `every`; whether enough triangles have a patch of more
-// than a leaf.
-static bool search(patch_search *s, uint32_t every, pool *threads) {
+// Search one chunk of `every`; whether this share of the triangles has a patch
+// of more than a leaf.
+static bool search(patch_search *s, uint32_t every, float share,
+                   pool *threads) {
   uint32_t inner = 0, triangles = 0, step = CHUNK * every;
   size_t chunks = (s->t->node_count + step - 1) / step;
   s->every = every;
@@ -54,7 +55,7 @@ static bool search(patch_search *s, uint32_t every, pool *threads) {
     inner += s->inner[i];
     triangles += s->triangles[i];
   }
-  return inner >= triangles / 2;
+  return (float)inner >= share * (float)triangles;
 }
 
 static void find_parents(uint32_t *parent, const wide_tree *t) {
@@ -98,7 +99,7 @@ void wide_patches_find(wide_tree *t, uint32_t triangles, arena *mem,
     reach = float_max(reach, float_max(fabsf(t->lo[k]), fabsf(t->hi[k])));
   s.unsure = 0x1p-19f * reach;
   find_parents(s.parent, t);
-  if (search(&s, SAMPLE, threads) && search(&s, 1, threads)) {
+  if (search(&s, SAMPLE, 0.25f, threads) && search(&s, 1, 0.5f, threads)) {
     t->patch_count = triangles;
     t->patch = order_patches(&s, mem);
   }

@@ -14,13 +14,13 @@
 // What a leaf looks through: at most WIDE - 1 children wait of each level.
 enum { PATCH_WAITING = (WIDE - 1) * 64 + WIDE };
 
-// The planes of a leaf's triangles: unit normals n by the winding, a corner, and
-// in single precision n . x = d.
+// The planes of a leaf's triangles: unit normals n by the winding, a corner,
+// and in single precision n . x = d.
 typedef struct leaf_planes {
   float x[WIDE], y[WIDE], z[WIDE], d[WIDE];
   double n[WIDE][3], corner[WIDE][3];
-  float unsure;      // by so much single precision may be wrong
-  uint32_t alive;    // bit k: nothing has been found above plane k so far
+  float unsure;    // by so much single precision may be wrong
+  uint32_t alive;  // bit k: nothing has been found above plane k so far
   uint32_t looks;
   uint32_t waiting;  // children to look at, and the planes that they reach
   uint32_t child[PATCH_WAITING];
@@ -29,7 +29,7 @@ typedef struct leaf_planes {
 
 // Corner i of triangle k of a leaf of n.
 SIMD vec3 leaf_corner(const uint32_t *leaf, uint32_t n, uint32_t k,
-                        uint32_t i) {
+                      uint32_t i) {
   vec3 p;
   memcpy(&p.x, &leaf[(3 * i + 0) * n + k], sizeof(float));
   memcpy(&p.y, &leaf[(3 * i + 1) * n + k], sizeof(float));
@@ -78,7 +78,7 @@ SIMD uint32_t lanes_reach(const leaf_planes *p, uint32_t k, const f8 v[3]) {
 
 // Planes of m that a corner of a leaf is above are not alive.
 SIMD void meet_leaf(leaf_planes *p, const wide_tree *t, uint32_t child,
-                      uint32_t m) {
+                    uint32_t m) {
   const uint32_t n = wide_leaf_count(child);
   const uint32_t *leaf = t->triangles + 10 * (size_t)wide_leaf_first(child);
   for (m &= p->alive; m != 0; m &= m - 1) {

@@ -29,7 +29,7 @@ typedef struct wide_tree {
   double seconds;  // to make it of the bvh
   // By number of triangle, its patch (wide_patch.h), or 0; NULL: none is known.
   uint32_t *patch;
-  uint32_t patch_count;    // triangles that may have one, if patch is not NULL
+  uint32_t patch_count;  // triangles that may have one, if patch is not NULL
   bool patches_looked_for;
 } wide_tree;
 

@@ -1,0 +1,244 @@
+// test_wide_patch.c — what rays that leave a facet pass over is below it, and
+// they find the same without looking at it.
+
+#include "bvh_split.h"
+#include "departures.h"
+#include "pool.h"
+#include "wide.h"
+#include "wide_patch.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+// A mesh with its tree.
+typedef struct patched {
+  solid s;
+  scene scene;
+  wide_tree wide;
+} patched;
+
+static void solid_join(solid *to, const solid *s, float size, vec3 at,
+                       bool turned) {
+  for (uint32_t i = 0; i < 3 * s->triangles; i++) {
+    uint32_t k = turned && i % 3 > 0 ? i / 3 * 3 + 3 - i % 3 : i;
+    to->index[3 * to->triangles + i] = to->vertices + s->index[k];
+  }
+  for (uint32_t i = 0; i < s->vertices; i++)
+    to->p[to->vertices + i] = vec3_mad(at, size, s->p[i]);
+  to->vertices += s->vertices;
+  to->triangles += s->triangles;
+}
+
+// Balls among each other, some inside out, and a floor of two triangles; at
+// such a distance from the origin.
+static solid balls_on_a_floor(bool turned, vec3 far, arena *mem) {
+  enum { BALLS = 12 };
+  solid ball = solid_icosphere(mem, 4);
+  solid s = {.p = ARENA_NEW(mem, vec3, (size_t)BALLS * ball.vertices + 4),
+             .index = ARENA_NEW(mem, uint32_t,
+                                3 * ((size_t)BALLS * ball.triangles + 2))};
+  rng r = rng_of(12, 1, 0);
+  for (int i = 0; i < BALLS; i++) {
+    vec3 at = vec3_add(far, vec3_scale(random_vector(&r), 4));
+    solid_join(&s, &ball, 0.3f + rng_next(&r), at, turned && i % 3 == 0);
+  }
+  vec3 corners[] = {{-9, -9, 0}, {9, -9, 0}, {9, 9, 0}, {-9, 9, 0}};
+  for (int i = 0; i < 4; i++)
+    corners[i] = vec3_add(far, corners[i]);
+  uint32_t index[] = {0, 1, 2, 0, 2, 3};
+  solid floor = {.p = corners, .index = index, .vertices = 4, .triangles = 2};
+  solid_join(&s, &floor, 1, (vec3){0, 0, 0}, false);
+  return s;
+}
+
+static void patch(patched *p, solid s, bool cut, int workers, arena *mem) {
+  pool *threads = pool_new(mem, workers);
+  bvh of = {.positions = s.p, .index = s.index, .triangle_count = s.triangles};
+  bvh b;
+  p->s = s;
+  p->scene = solid_scene(&p->s, false);
+  if (cut)
+    bvh_split_build(&b, &of, 1e12, mem, threads);
+  else
+    bvh_build(&b, s.p, s.index, s.triangles, BVH_SAH, mem, threads);
+  wide_tree_build(&p->wide, &b, mem, threads);
+  wide_patches_find(&p->wide, s.triangles, mem, threads);
+  pool_free(threads);
+}
+
+// What the exact heights of the corners below a child over a triangle come to.
+typedef struct heights {
+  long double most;  // in units of the farthest corner's distance
+  uint32_t triangles;
+  bool own;  // the triangle is among them
+} heights;
+
+static void measure(const patched *p, uint32_t triangle, uint32_t child,
+                    heights *out) {
+  if ((child & WIDE_LEAF_BIT) == 0) {
+    const wide_node *n = &p->wide.nodes[child];
+    for (int k = 0; k < WIDE; k++)
+      if (n->valid >> k & 1) measure(p, triangle, n->child[k], out);
+    return;
+  }
+  const uint32_t *of = p->s.index + 3 * (size_t)triangle;
+  const vec3 c[3] = {p->s.p[of[0]], p->s.p[of[1]], p->s.p[of[2]]};
+  exact3 n = exact3_cross(exact3_sub(c[1], c[0]), exact3_sub(c[2], c[0]));
+  long double length = sqrtl(exact3_dot(n, n));
+  uint32_t first = wide_leaf_first(child), count = wide_leaf_count(child);
+  const uint32_t *number = p->wide.triangles + 10 * (size_t)first + 9 * count;
+  for (uint32_t i = 0; i < count; i++) {
+    out->own |= number[i] == triangle;
+    for (int k = 0; k < 3; k++) {
+      exact3 d =
+          exact3_sub(p->s.p[p->s.index[3 * number[i] + (uint32_t)k]], c[0]);
+      long double far = sqrtl(exact3_dot(d, d));
+      long double high = exact3_dot(n, d) / length;
+      if (far > 0 && high / far > out->most) out->most = high / far;
+    }
+  }
+  out->triangles += count;
+}
+
+// Nothing in a patch is above its triangle, by long double; and balls are
+// patches of theirs, but not where they are inside out.
+static void patches_lie_below(void **state) {
+  (void)state;
+  for (int cut = 0; cut < 2; cut++) {
+    arena mem = {0};
+    patched p;
+    patch(&p, balls_on_a_floor(true, (vec3){0, 0, 0}, &mem), cut, 1, &mem);
+    assert_non_null(p.wide.patch);
+    uint32_t ball = (p.s.triangles - 2) / 12, large = 0;
+    for (uint32_t t = 0; t < p.s.triangles; t++) {
+      if (p.wide.patch[t] == 0) continue;
+      heights h = {0};
+      measure(&p, t, p.wide.patch[t], &h);
+      assert_true(h.own);
+      assert_true(h.most < 1e-15L);
+      if (t < 12 * ball && t / ball % 3 == 0)
+        assert_true(h.triangles <= 2 * WIDE_LEAF);
+      else
+        large += h.triangles > ball / 16;
+    }
+    assert_true(large > 6 * ball);
+    arena_free(&mem);
+  }
+}
+
+// A bumpy ball has next to none, so that nothing is kept of them.
+static void bumps_have_no_patches(void **state) {
+  (void)state;
+  arena mem = {0};
+  solid s = solid_icosphere(&mem, 5);
+  rng r = rng_of(12, 2, 0);
+  for (uint32_t i = 0; i < s.vertices; i++)
+    s.p[i] = vec3_scale(s.p[i], 1 + 0.02f * rng_next(&r));
+  patched p;
+  patch(&p, s, false, 1, &mem);
+  assert_true(p.wide.patches_looked_for);
+  assert_null(p.wide.patch);
+  assert_int_equal(p.wide.patch_count, 0);
+  arena_free(&mem);
+}
+
+static void threads_do_not_matter(void **state) {
+  (void)state;
+  arena mem = {0};
+  patched one, other;
+  patch(&one, balls_on_a_floor(false, (vec3){0, 0, 0}, &mem), true, 1, &mem);
+  patch(&other, balls_on_a_floor(false, (vec3){0, 0, 0}, &mem), true, 3, &mem);
+  assert_int_equal(one.wide.patch_count, other.wide.patch_count);
+  assert_memory_equal(one.wide.patch, other.wide.patch,
+                      one.wide.patch_count * sizeof *one.wide.patch);
+  arena_free(&mem);
+}
+
+enum { BATCH = 1000 };
+
+// Rays that leave random points in random directions, grazing ones among them,
+// as paths leave them; how many climb.
+static uint32_t leave(const patched *p, rng *r, ray *rays, uint32_t *left) {
+  uint32_t climb = 0;
+  for (int i = 0; i < BATCH; i++) {
+    hit h = random_hit(r, p->s.triangles);
+    vec3 d = random_direction(r);
+    surface at = surface_at(&p->scene, &h, vec3_neg(d));
+    if (i % 4 == 0)
+      d = vec3_unit(vec3_mad(d, 0.002f - vec3_dot(d, at.ng), at.ng));
+    rays[i] = surface_ray(&at, d);
+    left[i] = ray_climbs(d, at.ng) ? h.triangle : HIT_NONE;
+    climb += left[i] != HIT_NONE;
+  }
+  return climb;
+}
+
+// With and without patches, and one by one, where all is looked at: the same
+// hits, to the bit, with all instructions.
+static void patches_change_no_hit(void **state) {
+  (void)state;
+  const int batches = getenv("FACET_QUICK") != NULL ? 5 : 200;
+  for (int k = 0; k < 3; k++) {
+    arena mem = {0};
+    patched p;
+    vec3 far = k == 2 ? (vec3){3e4f, -2e4f, 1e4f} : (vec3){0, 0, 0};
+    patch(&p, balls_on_a_floor(k == 1, far, &mem), k == 1, 1, &mem);
+    assert_non_null(p.wide.patch);
+    rng r = rng_of(12, 3, (uint32_t)k);
+    uint32_t climb = 0, found = 0;
+    for (int i = 0; i < batches; i++) {
+      const wide_level *l = wide_level_at(i % WIDE_LEVELS);
+      if (l == NULL) l = wide_level_at(0);
+      ray rays[BATCH];
+      uint32_t left[BATCH];
+      hit with[BATCH], without[BATCH];
+      climb += leave(&p, &r, rays, left);
+      l->closest_many(&p.wide, rays, left, with, BATCH);
+      l->closest_many(&p.wide, rays, NULL, without, BATCH);
+      assert_memory_equal(with, without, sizeof with);
+      for (int j = 0; j < BATCH; j++)
+        found += with[j].triangle != HIT_NONE;
+    }
+    assert_true(climb > (uint32_t)batches * BATCH / 3);
+    assert_true(found > (uint32_t)batches * BATCH / 10);
+    arena_free(&mem);
+  }
+}
+
+// The patch is what is not looked at: where rays say that they climb from a
+// ball which they do not leave, they do not meet it.
+static void patches_are_passed_over(void **state) {
+  (void)state;
+  arena mem = {0};
+  patched p;
+  patch(&p, balls_on_a_floor(false, (vec3){0, 0, 0}, &mem), false, 1, &mem);
+  rng r = rng_of(12, 4, 0);
+  ray rays[BATCH];
+  uint32_t left[BATCH], lost = 0;
+  hit hits[BATCH], lies[BATCH];
+  leave(&p, &r, rays, left);
+  wide_tracer(&p.wide).closest_many(&p.wide, rays, NULL, hits, BATCH);
+  for (int i = 0; i < BATCH; i++)
+    left[i] = hits[i].triangle;
+  wide_tracer(&p.wide).closest_many(&p.wide, rays, left, lies, BATCH);
+  for (int i = 0; i < BATCH; i++)
+    lost += lies[i].triangle != hits[i].triangle;
+  assert_true(lost > BATCH / 10);
+  arena_free(&mem);
+}
+
+int main(void) {
+  const struct CMUnitTest tests[] = {
+      cmocka_unit_test(patches_lie_below),
+      cmocka_unit_test(bumps_have_no_patches),
+      cmocka_unit_test(threads_do_not_matter),
+      cmocka_unit_test(patches_change_no_hit),
+      cmocka_unit_test(patches_are_passed_over),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
