@@ -144,8 +144,7 @@ static bool step(path_aims *a, way *w, const hit *h, ray *r) {
 void path_aims_run(path_aims *a, path_stats *stats) {
   stats->aimed += a->count;
   while (a->count > 0) {
-    tracer_closest_many(&a->world->tracer, a->rays, NULL, a->hits,
-                        a->count);
+    tracer_closest_many(&a->world->tracer, a->rays, NULL, a->hits, a->count);
     stats->rays += a->count;
     size_t next = 0;
     for (size_t i = 0; i < a->count; i++) {

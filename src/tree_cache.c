@@ -100,6 +100,7 @@ static bool load_one(const tree_cache *c, bool cut, wide_tree *t, bvh *b,
   tree_facts facts;
   if (!cache_open(&f, KIND, key_of(c, cut))) return false;
   bool ok = cache_take(&f, &facts, sizeof facts, NULL);
+  ok = ok && (facts.patches == 0 || facts.patches == b->triangle_count);
   bool wanted = ok && (!c->cuts || (c->rays > facts.cut_rays) == cut);
   if (wanted) set_facts(t, b, &facts);
   if (wanted) ok = take_arrays(&f, t, mem, threads);

@@ -54,6 +54,37 @@ ok "with its picture" sh -c 'cmp "$1/few.png" "$1/few-again.png" &&
   cmp "$1/many.png" "$1/many-again.png" &&
   cmp "$1/many.png" "$1/many-plain.png"' - "$T"
 
+# A dome of 51,200 triangles, exactly convex.
+awk 'BEGIN { n = 161
+  for (j = 0; j < n; j++) for (i = 0; i < n; i++)
+    printf "v %d %.6f %d\n", i - 80, -((i - 80)^2 + (j - 80)^2) / 64, 80 - j
+  for (j = 1; j < n; j++) for (i = 1; i < n; i++) {
+    a = (j - 1) * n + i
+    printf "f %d %d %d\nf %d %d %d\n", a, a + 1, a + n, a + 1, a + n + 1, a + n }
+}' >"$T/dome.obj"
+
+# Patches: looked for where the rays repay it, kept with the tree, and no
+# reason to write it again; another picture for nobody.
+"$facet" cache clear >"$T/out"
+has() { grep -q "\"patches\": $2" "$T/$1.json"; }
+draw dome few
+ok "few rays look for no patches" has few false
+draw dome many -r 1600x1200 --spp 1 --crop 0,0,40,40
+ok "many do" sh -c 'grep -q "patches\": true.*from_cache\": true" "$1"' - \
+  "$T/many.json"
+cp "$folder"/tree-*.bin "$T/with"
+draw dome few-again
+ok "then few have them too" has few-again true
+ok "of the same file" cmp "$folder"/tree-*.bin "$T/with"
+draw dome all --no-skip
+ok "--no-skip looks at everything" has all false
+draw dome many-plain -r 1600x1200 --spp 1 --crop 0,0,40,40 --no-cache
+draw dome many-all -r 1600x1200 --spp 1 --crop 0,0,40,40 --no-cache --no-skip
+ok "and all pictures are the same" sh -c 'cmp "$1/few.png" "$1/few-again.png" &&
+  cmp "$1/few.png" "$1/all.png" && cmp "$1/many.png" "$1/many-plain.png" &&
+  cmp "$1/many.png" "$1/many-all.png"' - "$T"
+rm "$folder"/tree-*.bin
+
 # Damage of all kinds: a byte of the head, of the facts, of a node, of the last
 # triangle; cut short; nothing left; too long.
 "$facet" cache clear >"$T/out"

@@ -5,11 +5,14 @@
 #include "camera.h"
 #include "num.h"
 #include "rays.h"
+#include "rng.h"
 #include "triangle.h"
 #include "wide.h"
+#include "wide_patch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 // Where the pictures go, and the threads that make them.
 typedef struct output {
@@ -365,6 +368,72 @@ static void draw_planes(output *o, const bvh *b, const wide_cost *costs) {
   publish(o->folder, "planes", im);
 }
 
+// ---- Patches ----
+
+// A ball of the cells of a rock, and the same with the other diagonal in cells
+// where the first is the bottom of a valley.
+static void make_balls(rock out[2], arena *mem, uint32_t n) {
+  for (int k = 0; k < 2; k++) {
+    out[k] = rock_of(mem, n);
+    for (uint32_t i = 0; i < out[k].vertices; i++)
+      out[k].p[i] = vec3_unit(out[k].p[i]);
+  }
+  for (uint32_t i = 0; i < out[1].triangles; i += 2) {
+    uint32_t *t = out[1].index + 3 * (size_t)i;
+    const uint32_t a = t[0], right = t[1], below = t[2], across = t[5];
+    const vec3 *p = out[1].p;
+    vec3 u = vec3_sub(p[right], p[a]), v = vec3_sub(p[below], p[a]);
+    vec3 high = vec3_sub(p[across], p[a]);
+    if (!(vec3_dot(vec3_cross(u, v), high) > 0)) continue;
+    const uint32_t other[6] = {a, right, across, a, across, below};
+    memcpy(t, other, sizeof other);
+  }
+}
+
+// A colour for each patch of more than a leaf; grey where there is none.
+static vec3 patch_color(const wide_tree *w, uint32_t triangle) {
+  uint32_t child = w->patch != NULL ? w->patch[triangle] : 0;
+  if (child == 0) return vec3_all(0.12f);
+  if (child & WIDE_LEAF_BIT) return vec3_all(0.3f);
+  rng r = rng_of(12, child, 0);
+  float x = rng_next(&r), y = rng_next(&r);
+  return vec3_mad(vec3_all(0.15f), 0.8f, (vec3){x, y, rng_next(&r)});
+}
+
+// What rays that leave each triangle of two balls pass over.
+static void draw_patches(output *o) {
+  const camera c = {NULL, {1.4f, 1.6f, 3.2f}, {0, 0, 0}, {0, 1, 0}, 36};
+  rock balls[2];
+  camera_view view;
+  error err;
+  make_balls(balls, &o->mem, 40);
+  if (!camera_view_of(&view, &c, 236, 236, &err)) exit(3);
+  image im = image_new(&o->mem, 480, 236);
+  fill(im, 0, 0, 480, 236, (vec3){1, 1, 1});
+  for (int k = 0; k < 2; k++) {
+    const rock *m = &balls[k];
+    bvh b;
+    wide_tree w;
+    uint32_t inner = 0;
+    bvh_build(&b, m->p, m->index, m->triangles, BVH_SAH, &o->mem, o->threads);
+    wide_tree_build(&w, &b, &o->mem, o->threads);
+    wide_patches_find(&w, m->triangles, &o->mem, o->threads);
+    for (int i = 0; i < 236 * 236; i++) {
+      ray r =
+          camera_ray(&view, (float)(i % 236) + 0.5f, (float)(i / 236) + 0.5f);
+      hit h;
+      if (wide_tracer(&w).closest(&w, &r, &h))
+        im.pixels[i / 236 * 480 + 244 * k + i % 236] =
+            patch_color(&w, h.triangle);
+    }
+    for (uint32_t i = 0; w.patch != NULL && i < m->triangles; i++)
+      inner += w.patch[i] != 0 && !(w.patch[i] & WIDE_LEAF_BIT);
+    printf("%u of %u triangles have a patch of more than a leaf\n", inner,
+           m->triangles);
+  }
+  publish(o->folder, "patches", im);
+}
+
 // ---- Visits ----
 
 // A table of what rays visit in either tree, kind by kind.
@@ -448,6 +517,7 @@ int main(int argc, char **argv) {
   draw_cuts(&o);
   draw_leaks(&o);
   draw_waiting(&o);
+  draw_patches(&o);
   print_visits(&o, &m, &b, &w);
   print_growth(&o);
   pool_free(o.threads);
