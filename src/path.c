@@ -196,12 +196,22 @@ static bool step(wave *w, stop *s, ray *r) {
   return false;
 }
 
-// The triangle that a path's next ray climbs away from.  One that came from
-// below its plane and goes on above begins above only if it passes through.
+// Whether the smooth surface is straight above the facet, or nearly.
+static bool lifted_straight(const surface *at) {
+  vec3 lift = vec3_sub(at->p_smooth, at->p);
+  float high = vec3_dot(lift, at->ng);
+  return high * high >= RAY_CLIMB * RAY_CLIMB * vec3_dot(lift, lift);
+}
+
+// The triangle that a path's next ray climbs away from.  By chance alone it
+// begins on the smooth surface, on the side that the last one came from; else
+// on the facet, on the side that it goes to.
 static uint32_t left_by(const wave *w, const stop *s, const ray *r) {
   const surface *at = &s->at->at;
-  bool above = at->front || !(w->paths[s->which].pdf > 0);
-  return above && ray_climbs(r->d, at->ng) ? at->triangle : HIT_NONE;
+  if (!ray_climbs(r->d, at->ng)) return HIT_NONE;
+  bool above =
+      !(w->paths[s->which].pdf > 0) || (at->front && lifted_straight(at));
+  return above ? at->triangle : HIT_NONE;
 }
 
 // Shade n of the paths whose rays have met a surface.

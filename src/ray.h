@@ -40,10 +40,10 @@ static inline vec3 ray_flush(vec3 d) {
 }
 
 // The least cosine between a ray and a normal that it climbs along.
-#define RAY_CLIMB 0x1p-10f
+#define RAY_CLIMB 0x1p-4f
 
 // Whether a ray of unit direction d climbs away from a facet of unit normal n,
-// if it begins above its plane or in it: it then meets nothing below.
+// if it begins in it or straight above.
 static inline bool ray_climbs(vec3 d, vec3 n) {
   return vec3_dot(d, n) > RAY_CLIMB;
 }

@@ -3,7 +3,7 @@
 #ifndef WIDE_BELOW_H
 #define WIDE_BELOW_H
 
-#include "wide_planes.h"
+#include "wide_above.h"
 
 // Nodes and leaves that a leaf looks at, at most: a sphere of any number of
 // triangles is not looked through for each of them.
@@ -21,9 +21,12 @@ SIMD void meet_node(leaf_planes *p, const wide_node *w, uint32_t but,
                f8_all(w->base[i / 2]));
   for (m &= p->alive; m != 0; m &= m - 1) {
     uint32_t k = (uint32_t)__builtin_ctz(m);
-    f8 v[3] = {side[p->x[k] > 0][0], side[p->y[k] > 0][1],
-               side[p->z[k] > 0][2]};
-    uint32_t reach = lanes_reach(p, k, v) & w->valid;
+    uint32_t reach = w->valid;
+    for (int f = 0; f < FACES && reach != 0; f++) {
+      f8 v[3] = {side[p->x[k][f] > 0][0], side[p->y[k][f] > 0][1],
+                 side[p->z[k][f] > 0][2]};
+      reach &= lanes_reach(p, k, f, v);
+    }
     any |= reach;
     for (; reach != 0; reach &= reach - 1)
       reached[__builtin_ctz(reach)] |= (uint8_t)(1u << k);
@@ -58,13 +61,14 @@ static uint32_t kernel_patches(const wide_tree *t, const wide_leaf_place *at,
                                uint32_t *patch) {
   const uint32_t n = wide_leaf_count(at->leaf);
   const uint32_t *leaf = t->triangles + 10 * (size_t)wide_leaf_first(at->leaf);
-  uint32_t inner = 0, but = at->leaf;
+  uint32_t levels = 0, but = at->leaf;
   leaf_planes p;
   p.unsure = at->unsure;
   p.alive = p.looks = 0;
   for (uint32_t k = 0; k < n; k++)
-    set_plane(&p, k, leaf_corner(leaf, n, k, 0), leaf_corner(leaf, n, k, 1),
-              leaf_corner(leaf, n, k, 2));
+    set_planes(&p, k,
+               (vec3[]){leaf_corner(leaf, n, k, 0), leaf_corner(leaf, n, k, 1),
+                        leaf_corner(leaf, n, k, 2)});
   meet_leaf(&p, t, at->leaf, 0xff);
   for (uint32_t k = 0; k < n; k++)
     patch[k] = p.alive >> k & 1 ? at->leaf : 0;
@@ -73,10 +77,10 @@ static uint32_t kernel_patches(const wide_tree *t, const wide_leaf_place *at,
     if (p.alive == 0) break;
     for (uint32_t k = 0; k < n; k++)
       if (p.alive >> k & 1) patch[k] = node;
-    inner |= p.alive;
+    levels += (uint32_t)__builtin_popcount(p.alive);
     but = node;
   }
-  return (uint32_t)__builtin_popcount(inner);
+  return levels;
 }
 
 #endif

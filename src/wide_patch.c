@@ -18,7 +18,7 @@ typedef struct patch_search {
   const wide_level *level;
   uint32_t *parent, *patch;
   uint32_t every;       // which chunks: of so many one
-  uint32_t *inner;      // by chunk: triangles that have more than their leaf
+  uint32_t *levels;     // by chunk: how far patches are above their leaves
   uint32_t *triangles;  // and how many there are
   float unsure;
 } patch_search;
@@ -26,36 +26,35 @@ typedef struct patch_search {
 static void search_chunk(void *context, size_t item, int worker) {
   const patch_search *s = context;
   const uint32_t chunk = (uint32_t)item * s->every + s->every / 2;
-  uint32_t inner = 0, triangles = 0;
+  uint32_t levels = 0, triangles = 0;
   for (uint32_t i = chunk * CHUNK; i < (chunk + 1) * CHUNK; i++) {
     if (i >= s->t->node_count) break;
     const wide_node *w = &s->t->nodes[i];
     for (uint32_t k = 0; k < WIDE; k++) {
       if ((w->valid >> k & 1) == 0 || !(w->child[k] & WIDE_LEAF_BIT)) continue;
       const wide_leaf_place at = {s->parent, i, w->child[k], s->unsure};
-      inner +=
+      levels +=
           s->level->patches(s->t, &at, s->patch + wide_leaf_first(w->child[k]));
       triangles += wide_leaf_count(w->child[k]);
     }
   }
-  s->inner[item] = inner;
+  s->levels[item] = levels;
   s->triangles[item] = triangles;
   (void)worker;
 }
 
-// Search one chunk of `every`; whether this share of the triangles has a patch
-// of more than a leaf.
-static bool search(patch_search *s, uint32_t every, float share,
-                   pool *threads) {
-  uint32_t inner = 0, triangles = 0, step = CHUNK * every;
+// Search one chunk of `every`; whether patches are, in the mean, this far above
+// their leaves.
+static bool search(patch_search *s, uint32_t every, float far, pool *threads) {
+  uint32_t levels = 0, triangles = 0, step = CHUNK * every;
   size_t chunks = (s->t->node_count + step - 1) / step;
   s->every = every;
   pool_run(threads, chunks, search_chunk, s);
   for (size_t i = 0; i < chunks; i++) {
-    inner += s->inner[i];
+    levels += s->levels[i];
     triangles += s->triangles[i];
   }
-  return (float)inner >= share * (float)triangles;
+  return (float)levels >= far * (float)triangles;
 }
 
 static void find_parents(uint32_t *parent, const wide_tree *t) {
@@ -92,14 +91,14 @@ void wide_patches_find(wide_tree *t, uint32_t triangles, arena *mem,
   size_t chunks = t->node_count / CHUNK + 1;
   s.parent = ARENA_NEW(&scratch, uint32_t, t->node_count);
   s.patch = ARENA_NEW(&scratch, uint32_t, t->triangle_count);
-  s.inner = ARENA_NEW(&scratch, uint32_t, chunks);
+  s.levels = ARENA_NEW(&scratch, uint32_t, chunks);
   s.triangles = ARENA_NEW(&scratch, uint32_t, chunks);
   float reach = 0;
   for (int k = 0; k < 3; k++)
     reach = float_max(reach, float_max(fabsf(t->lo[k]), fabsf(t->hi[k])));
   s.unsure = 0x1p-19f * reach;
   find_parents(s.parent, t);
-  if (search(&s, SAMPLE, 0.25f, threads) && search(&s, 1, 0.5f, threads)) {
+  if (search(&s, SAMPLE, 1.5f, threads) && search(&s, 1, 2, threads)) {
     t->patch_count = triangles;
     t->patch = order_patches(&s, mem);
   }

@@ -10,11 +10,12 @@
 enum { WIDE_PATCH_RAYS = 64 };
 
 // Look for the patches of a tree over so many triangles, and set t->patch where
-// many of these have one of more than a leaf.  The patch of a triangle is a
-// child of the tree that holds it, the largest that is found to lie below: no
-// corner in it is on the side of the triangle's plane to which its normal by
-// the winding points, so that what ray_climbs from the triangle hits nothing of
-// it.  The same for any threads; in time that grows as the triangles.
+// they are large enough to pay.  The patch of a triangle is a child of the tree
+// that holds it, the largest found that no ray can hit which ray_climbs away
+// from the triangle, on the side of its normal by the winding: each triangle in
+// it is below the plane of the one that is left, or below a plane through one
+// of its edges that rises outwards by RAY_CLIMB.  The same for any threads; in
+// time that grows as the triangles.
 void wide_patches_find(wide_tree *t, uint32_t triangles, arena *mem,
                        pool *threads);
 

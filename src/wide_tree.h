@@ -76,8 +76,8 @@ typedef struct wide_level {
   // closest, counting into *v; a leaf is a node.
   bool (*closest_counted)(const void *tree, const ray *r, hit *h,
                           bvh_visits *v);
-  // The patches of the triangles of a leaf, or 0 (wide_patch.h); how many have
-  // more than the leaf.
+  // The patches of the triangles of a leaf, or 0 (wide_patch.h); the sum of
+  // the levels that they are above the leaf.
   uint32_t (*patches)(const wide_tree *t, const wide_leaf_place *at,
                       uint32_t *patch);
 } wide_level;

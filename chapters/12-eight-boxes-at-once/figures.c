@@ -12,7 +12,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 // Where the pictures go, and the threads that make them.
 typedef struct output {
@@ -370,23 +369,17 @@ static void draw_planes(output *o, const bvh *b, const wide_cost *costs) {
 
 // ---- Patches ----
 
-// A ball of the cells of a rock, and the same with the other diagonal in cells
-// where the first is the bottom of a valley.
+// A ball of the cells of a rock, half of which are cut along a valley, and a
+// die with round edges.
 static void make_balls(rock out[2], arena *mem, uint32_t n) {
   for (int k = 0; k < 2; k++) {
     out[k] = rock_of(mem, n);
-    for (uint32_t i = 0; i < out[k].vertices; i++)
-      out[k].p[i] = vec3_unit(out[k].p[i]);
-  }
-  for (uint32_t i = 0; i < out[1].triangles; i += 2) {
-    uint32_t *t = out[1].index + 3 * (size_t)i;
-    const uint32_t a = t[0], right = t[1], below = t[2], across = t[5];
-    const vec3 *p = out[1].p;
-    vec3 u = vec3_sub(p[right], p[a]), v = vec3_sub(p[below], p[a]);
-    vec3 high = vec3_sub(p[across], p[a]);
-    if (!(vec3_dot(vec3_cross(u, v), high) > 0)) continue;
-    const uint32_t other[6] = {a, right, across, a, across, below};
-    memcpy(t, other, sizeof other);
+    for (uint32_t i = 0; i < out[k].vertices; i++) {
+      vec3 d = vec3_unit(out[k].p[i]), e = vec3_mul(d, d);
+      e = vec3_mul(e, e);
+      float root = sqrtf(sqrtf(sqrtf(vec3_dot(e, e))));
+      out[k].p[i] = k == 0 ? d : vec3_scale(d, 0.75f / root);
+    }
   }
 }
 
@@ -400,7 +393,7 @@ static vec3 patch_color(const wide_tree *w, uint32_t triangle) {
   return vec3_mad(vec3_all(0.15f), 0.8f, (vec3){x, y, rng_next(&r)});
 }
 
-// What rays that leave each triangle of two balls pass over.
+// What rays that leave each triangle of a ball and a die pass over.
 static void draw_patches(output *o) {
   const camera c = {NULL, {1.4f, 1.6f, 3.2f}, {0, 0, 0}, {0, 1, 0}, 36};
   rock balls[2];
