@@ -55,7 +55,8 @@ SIMD bool unit_cross(double out[3], const double a[3], const double b[3]) {
   return length > 0 && length <= DBL_MAX;
 }
 
-// Face f of triangle k: through point `at`, n + tilt w.
+// Face f of triangle k, through a corner: f 0 has normal n, others are tilted
+// towards unit w.
 SIMD void set_face(leaf_planes *p, uint32_t k, int f, vec3 at,
                    const double n[3], const double w[3]) {
   double *to = p->n[k][f], *corner = p->corner[k][f];
