@@ -10,7 +10,7 @@
 
 // Whether v is above face f of triangle k, by more than the roundings of this
 // sum.
-SIMD bool is_above(const leaf_planes *p, uint32_t k, int f, vec3 v) {
+static inline bool is_above(const leaf_planes *p, uint32_t k, int f, vec3 v) {
   const double *n = p->n[k][f], *at = p->corner[k][f];
   double x = n[0] * ((double)v.x - at[0]), y = n[1] * ((double)v.y - at[1]);
   double z = n[2] * ((double)v.z - at[2]);
@@ -27,8 +27,8 @@ SIMD uint32_t lanes_reach(const leaf_planes *p, uint32_t k, int f,
 }
 
 // The triangles of a leaf of n that have a corner above a face.
-SIMD uint32_t leaf_above(const leaf_planes *p, uint32_t k, int f,
-                         const uint32_t *leaf, uint32_t n) {
+static inline uint32_t leaf_above(const leaf_planes *p, uint32_t k, int f,
+                                  const uint32_t *leaf, uint32_t n) {
   uint32_t above = 0;
   for (uint32_t i = 0; i < 3; i++) {
     const float *at = (const float *)(const void *)(leaf + 3 * i * n);
@@ -43,8 +43,8 @@ SIMD uint32_t leaf_above(const leaf_planes *p, uint32_t k, int f,
 }
 
 // Triangles of m are not alive if one of a leaf is below none of their planes.
-SIMD void meet_leaf(leaf_planes *p, const wide_tree *t, uint32_t child,
-                    uint32_t m) {
+APART void meet_leaf(leaf_planes *p, const wide_tree *t, uint32_t child,
+                     uint32_t m) {
   const uint32_t n = wide_leaf_count(child);
   const uint32_t *leaf = t->triangles + 10 * (size_t)wide_leaf_first(child);
   for (m &= p->alive; m != 0; m &= m - 1) {

@@ -10,8 +10,8 @@
 enum { PATCH_LOOKS = 128 };
 
 // Children of a node but one wait, if they reach a plane of m that is alive.
-SIMD void meet_node(leaf_planes *p, const wide_node *w, uint32_t but,
-                    uint32_t m) {
+APART void meet_node(leaf_planes *p, const wide_node *w, uint32_t but,
+                     uint32_t m) {
   f8 side[2][3];
   uint8_t reached[WIDE] = {0};
   uint32_t any = 0;
@@ -40,8 +40,8 @@ SIMD void meet_node(leaf_planes *p, const wide_node *w, uint32_t but,
 }
 
 // All below a node but what is below one of its children.
-SIMD void meet_below(leaf_planes *p, const wide_tree *t, uint32_t node,
-                     uint32_t but) {
+APART void meet_below(leaf_planes *p, const wide_tree *t, uint32_t node,
+                      uint32_t but) {
   p->waiting = 0;
   meet_node(p, &t->nodes[node], but, 0xff);
   while (p->waiting > 0 && p->alive != 0) {

@@ -30,8 +30,8 @@ typedef struct leaf_planes {
 } leaf_planes;
 
 // Corner i of triangle k of a leaf of n.
-SIMD vec3 leaf_corner(const uint32_t *leaf, uint32_t n, uint32_t k,
-                      uint32_t i) {
+static inline vec3 leaf_corner(const uint32_t *leaf, uint32_t n, uint32_t k,
+                               uint32_t i) {
   vec3 p;
   memcpy(&p.x, &leaf[(3 * i + 0) * n + k], sizeof(float));
   memcpy(&p.y, &leaf[(3 * i + 1) * n + k], sizeof(float));
@@ -39,14 +39,15 @@ SIMD vec3 leaf_corner(const uint32_t *leaf, uint32_t n, uint32_t k,
   return p;
 }
 
-SIMD void difference(double out[3], vec3 a, vec3 b) {
+static inline void difference(double out[3], vec3 a, vec3 b) {
   out[0] = (double)a.x - (double)b.x;
   out[1] = (double)a.y - (double)b.y;
   out[2] = (double)a.z - (double)b.z;
 }
 
 // a x b, of unit length where that is possible; false where not.
-SIMD bool unit_cross(double out[3], const double a[3], const double b[3]) {
+static inline bool unit_cross(double out[3], const double a[3],
+                              const double b[3]) {
   double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2];
   double z = a[0] * b[1] - a[1] * b[0], length = sqrt(x * x + y * y + z * z);
   out[0] = x / length;
@@ -57,8 +58,8 @@ SIMD bool unit_cross(double out[3], const double a[3], const double b[3]) {
 
 // Face f of triangle k, through a corner: f 0 has normal n, others are tilted
 // towards unit w.
-SIMD void set_face(leaf_planes *p, uint32_t k, int f, vec3 at,
-                   const double n[3], const double w[3]) {
+static inline void set_face(leaf_planes *p, uint32_t k, int f, vec3 at,
+                            const double n[3], const double w[3]) {
   double *to = p->n[k][f], *corner = p->corner[k][f];
   difference(corner, at, (vec3){0, 0, 0});
   for (int i = 0; i < 3; i++)
@@ -70,7 +71,7 @@ SIMD void set_face(leaf_planes *p, uint32_t k, int f, vec3 at,
       (float)(to[0] * corner[0] + to[1] * corner[1] + to[2] * corner[2]);
 }
 
-SIMD void set_planes(leaf_planes *p, uint32_t k, const vec3 c[3]) {
+APART void set_planes(leaf_planes *p, uint32_t k, const vec3 c[3]) {
   double a[3], b[3], n[3], w[3];
   difference(a, c[1], c[0]);
   difference(b, c[2], c[0]);

@@ -10,12 +10,14 @@
 // One line a scene and set of instructions: rays and nanoseconds of one thread
 // a ray, closest and any, with whatever else paths do in between.  The fastest
 // of ROUNDS (environment, default 3) renders of SPP (2) samples a pixel and up
-// to 16 segments; SIMD (default: all) is a list of levels.
+// to 16 segments; SIMD (default: all) is a list of levels; with PATCHES=0 rays
+// look at what they leave.
 
 #include "aim_learn.h"
 #include "ready.h"
 #include "render.h"
 #include "wide.h"
+#include "wide_patch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -91,6 +93,9 @@ static bool set_load(set *s, const char *path, error *err) {
   bvh_build(&b, m->positions, m->position_index, (uint32_t)m->triangle_count,
             BVH_COARSE, &s->mem, NULL);
   wide_tree_build(&s->tree, &b, &s->mem, NULL);
+  if (setting("PATCHES", 1) != 0)
+    wide_patches_find(&s->tree, (uint32_t)s->scene.mesh.triangle_count, &s->mem,
+                      NULL);
   s->world = (path_world){.scene = &s->scene, .lights = true, .max_depth = 16};
   s->world.dfg = matter_table(&s->scene, PBR_GGX, &s->mem, NULL);
   s->world.tracer = wide_tracer(&s->tree);
