@@ -122,6 +122,9 @@ static void look(const patched *p, uint32_t triangle, uint32_t child,
   out->triangles += count;
 }
 
+// A patch may be most of the mesh, so one triangle of so many is looked at.
+enum { LOOKED_AT = 101 };
+
 // Everything in a patch is below its triangle; and balls are made of large
 // ones, but not where they are inside out.
 static void patches_lie_below(void **state) {
@@ -132,7 +135,7 @@ static void patches_lie_below(void **state) {
     patch(&p, balls_on_a_floor(true, (vec3){0, 0, 0}, &mem), cut, 1, &mem);
     assert_non_null(p.wide.patch);
     uint32_t ball = (p.s.triangles - 2) / 12, large = 0;
-    for (uint32_t t = 0; t < p.s.triangles; t++) {
+    for (uint32_t t = 0; t < p.s.triangles; t += LOOKED_AT) {
       if (p.wide.patch[t] == 0) continue;
       contents c = {.below = true};
       look(&p, t, p.wide.patch[t], &c);
@@ -140,7 +143,7 @@ static void patches_lie_below(void **state) {
       if (t < 12 * ball && t / ball % 3 == 0)
         assert_true(c.triangles < ball / 16);
       else
-        large += c.triangles > ball / 16;
+        large += LOOKED_AT * (c.triangles > ball / 16);
     }
     assert_true(large > 6 * ball);
     arena_free(&mem);
