@@ -143,7 +143,7 @@ static void patches_lie_below(void **state) {
       if (t < 12 * ball && t / ball % 3 == 0)
         assert_true(c.triangles < ball / 16);
       else
-        large += LOOKED_AT * (c.triangles > ball / 16);
+        large += c.triangles > ball / 16 ? LOOKED_AT : 0;
     }
     assert_true(large > 6 * ball);
     arena_free(&mem);
