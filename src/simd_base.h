@@ -14,7 +14,7 @@
 // Known to the compiler where it is used, at any optimisation.
 #define SIMD static inline __attribute__((always_inline))
 
-// A function of its own wherever it is used.
+// Never part of its caller, which then has more registers.
 #define APART static __attribute__((noinline))
 
 // Four floats and four integers.

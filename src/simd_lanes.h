@@ -5,7 +5,7 @@
 
 #include "simd.h"
 
-// The same 32 bits in all lanes.
+// The same 32 bits, not a float perhaps, in all lanes.
 SIMD f8 f8_bits(uint32_t bits) {
   float x;
   memcpy(&x, &bits, sizeof x);
@@ -27,7 +27,7 @@ SIMD uint32_t lanes_equal(const uint32_t v[8], uint32_t x) {
   return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(e));
 }
 
-// Of each pair of four rows, 64 bits from here and there.
+// Two of the three rounds of a transposition, on four of the rows.
 SIMD void f8_mix(f8 to[4], f8 a, f8 b, f8 c, f8 d) {
   __m256 ab = _mm256_unpacklo_ps(a.v, b.v), ba = _mm256_unpackhi_ps(a.v, b.v);
   __m256 cd = _mm256_unpacklo_ps(c.v, d.v), dc = _mm256_unpackhi_ps(c.v, d.v);

@@ -13,7 +13,7 @@ SIMD uint32_t octant_of(const ray *r) {
   return d[0] >> 31 | d[1] >> 31 << 1 | d[2] >> 31 << 2;
 }
 
-// A look at three of 16 rays, which tells most of those that are no packet.
+// A look at four of 16 rays, which finds out most groups that are no packet.
 SIMD bool packet_likely(const ray *rays) {
   uint32_t first = octant_of(&rays[0]);
   return octant_of(&rays[5]) == first && octant_of(&rays[10]) == first &&
@@ -25,9 +25,9 @@ typedef struct packet_rays {
   f8 v[2][8];
 } packet_rays;
 
-// The axis along which all 16 rays run fastest, -1 where they differ, one
-// changes its octant, or one is not ordinary: not finite, along a plane of the
-// axes, without a span.
+// The axis along which all 16 rays run fastest; -1 where they differ in it or
+// in their octants, or where a ray is not finite, runs along a plane of the
+// axes or has no span.
 SIMD int packet_direction(packet *p, const packet_rays *r) {
   f8 most = f8_all(FLT_MAX), least = f8_all(FLT_MIN), zero = f8_all(0);
   uint32_t fine = 0xffff, x = 0, y = 0, back[3] = {0, 0, 0};

@@ -12,8 +12,8 @@
 
 // What one ray needs on its way, in four rows of eight numbers.  The first is
 // for triangles, and its axes are turned so that the longest is the last: o and
-// the shear.  inv, enter and leave are slab_ray by axis; reach is the t, at
-// most, to the far side of the tree along the longest axis.
+// the shear.  inv, enter and leave are slab_ray by axis; reach is no less
+// than the t at the far side of the tree along the longest axis.
 typedef struct wide_walk {
   float o[3], sx, sy, sz, tmin, tmax;
   float inv[3], reach, enter[3];

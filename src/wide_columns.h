@@ -42,8 +42,8 @@ SIMD void ready_axis(ready_rays *q, int k, f8 o, f8 a, f8 far) {
   q->column[3][k] = f8_where_lt(inv[k], zero, f8_bits(WIDE), f8_bits(0));
 }
 
-// d of axis k without what is denormal, and |d|; what is no number, and what
-// is not 0, in *odd and *some.
+// d of axis k without what is denormal, and |d|.  *odd learns which rays have
+// a number that is not finite, *some which have a direction.
 SIMD f8 ready_direction(f8 d[3], const f8 v[8], int k, uint32_t *odd,
                         uint32_t *some) {
   f8 a = f8_abs(v[RAY_D + k]), least = f8_all(FLT_MIN);

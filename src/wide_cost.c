@@ -7,7 +7,7 @@
 #define LEAF_COST 0.8f
 #define TRIANGLE_COST 0.1f
 
-// So many parts of the tree, or a few more, are work items.
+// About so many parts of the tree are work items.
 enum { PARTS = 256 };
 
 // What the threads share: nodes above the parts, and the roots of these.

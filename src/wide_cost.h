@@ -11,10 +11,9 @@
 // Children of a node at most, triangles of a leaf at most.
 enum { WIDE = 8, WIDE_LEAF = 8 };
 
-// For each node of the binary tree: the triangles below it; of[i] is what all
-// below costs as a forest of at most i + 1 trees, for i < 7, and of[7] the
-// same for 8 trees of which the node is not one, in visits to nodes per random
-// ray.
+// For each node of the binary tree: the triangles below it, and costs in visits
+// to nodes per random ray.  For i < 7, of[i] is what all below costs as at most
+// i + 1 trees side by side; of[7], as up to 8 of which the node itself is none.
 typedef struct wide_cost {
   float of[WIDE];
   uint32_t below;

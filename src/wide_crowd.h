@@ -11,9 +11,9 @@
 
 #include "wide_stream.h"
 
-// Rays of a crowd, at most; how many numbers of rays its lists may hold, a
-// list for each child of the root and again as much; the shortest list that
-// stays together.
+// Rays of a crowd, at most; how many numbers its lists may hold: all rays in
+// each of the root's children, and again as many; the shortest list that stays
+// together.
 enum { CROWD = 1024, WAITING = 2 * WIDE * CROWD, TOGETHER = 3 };
 
 // What a ray needs at nodes, in one line of the cache: slab_ray, but the

@@ -18,7 +18,7 @@ typedef struct leaf_corners {
   f8 of[9];
 } leaf_corners;
 
-// Those of a leaf of n; lanes beyond n hold something.
+// Those of a leaf of n; lanes beyond n hold whatever comes next in memory.
 SIMD void corners_load(leaf_corners *c, const uint32_t *leaf, size_t n,
                        const uint32_t axis[3]) {
   const float *p = (const float *)(const void *)leaf;

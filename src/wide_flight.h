@@ -15,7 +15,7 @@ enum {
   FLIGHT_STACK = 1 + (WIDE - 1) * FLIGHT_DEPTH + WIDE
 };
 
-// What lies below a stack, instead of a child.
+// The lowest place of a stack holds this instead of a child.
 #define FLIGHT_END UINT32_MAX
 
 // One ray in flight: number `index` of the stream, `next` the child to visit.
@@ -31,7 +31,7 @@ typedef struct flight {
 
 _Static_assert(sizeof(flight) % 128 == 64, "an odd number of lines");
 
-// How many rays may wait to go alone.
+// How many rays of crowds may wait to go alone (wide_crowd.h).
 enum { LONELY = 4096 };
 
 // Rays of a stream that go alone, each from a child of its own.

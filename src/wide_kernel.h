@@ -1,4 +1,4 @@
-// wide_kernel.h — down the wide tree, compiled once a level.
+// wide_kernel.h — all ways down the wide tree, compiled once a level.
 //
 // A file that includes this is given its instructions by the Makefile and
 // defines one wide_level.  All levels find the same, to the bit.

@@ -5,7 +5,7 @@
 
 #include "wide_leaf.h"
 
-// Ray i has found something.
+// Ray i has found something; with `any` that is all it asked.
 SIMD void packet_found(packet *p, uint32_t i, bool any) {
   p->until[i] = any ? -1 : p->best[i].t;
   if (any) p->alive &= ~(1u << i);

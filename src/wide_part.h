@@ -41,8 +41,8 @@ SIMD uint32_t bytes_column(uint64_t bytes, uint32_t c) {
   return (uint32_t)(bits * UINT64_C(0x0102040810204080) >> 56);
 }
 
-// Of n rays, of which mask[k] says which children each enters, those that
-// enter child c, as a list; its length.  Reads and writes up to 7 beyond.
+// The list of those of n rays that enter child c, and its length; mask[k] says
+// which children ray k enters.  Reads and writes up to 7 beyond.
 SIMD uint32_t part_list(uint32_t *to, const uint32_t *from, const uint8_t *mask,
                         uint32_t n, uint32_t c) {
   uint32_t count = 0;

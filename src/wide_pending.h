@@ -20,14 +20,14 @@ typedef struct pending {
   float corner[9][PENDING];
 } pending;
 
-// Nothing, and no flight that is none.
+// Empty.  Lanes beyond the last candidate name flight 0, which there is.
 SIMD void pending_clear(pending *q) {
   q->count = 0;
   memset(q->flight, 0, sizeof q->flight);
 }
 
-// Write the lanes m of a leaf behind the first `count`; how many these are
-// then.  Nothing to guess for the processor.
+// Write the lanes m of a leaf behind the first `count` and return the new
+// count. There is no branch, whatever m is.
 SIMD uint32_t pending_add(pending *q, uint32_t count, const leaf_corners *at,
                           const uint32_t *list, uint32_t m) {
   f8_lanes lanes = f8_lanes_of(m);

@@ -20,8 +20,8 @@ SIMD float key_near(uint32_t key) {
 
 #if defined(__AVX2__)
 
-// One layer of a sorting network: each lane against lane i ^ something of the
-// same vector, shuffled; the larger one goes where `most` has no bit.
+// One layer of a sorting network: each lane is compared with the same lane of
+// `shuffled`, its partner; the smaller key goes where `least` has a bit.
 #define SORT_LAYER(v, shuffled, least) \
   do { \
     __m256i other = (shuffled); \

@@ -8,8 +8,9 @@
 // Rays that a stream looks at together, at most.
 enum { STREAM = 8192 };
 
-// The next rays of a stream, made ready: number index[i] of it, if bit i of
-// `can` is set; `next` is the one to begin with, of `count`.
+// The next rays of a stream, made ready: number index[i] of it begins at child
+// from[i] and passes over patch[i]; bit i of `can`: it can hit something.  Of
+// `count` rays, those before `next` have taken off.
 typedef struct ready_rows {
   float row[ROWS][8][8];
   uint32_t index[8], from[8], patch[8];
@@ -17,8 +18,8 @@ typedef struct ready_rows {
 } ready_rows;
 
 // A stream: its rays and those in flight.  One of hits and blocked is NULL.
-// Those fly that are in `groups` of PACKET rays, of which the last may be
-// shorter, or else the lone ones.
+// Those fly that are in `groups`, each of PACKET rays in a row (the last may
+// have fewer), or the lone ones of a crowd.
 typedef struct stream {
   const wide_tree *t;
   const ray *rays;

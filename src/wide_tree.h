@@ -20,7 +20,7 @@ typedef struct wide_node {
 // of them, x of corner 0 n times, y, z, then corners 1 and 2, then their n
 // numbers; 40 bytes a triangle and no gaps.
 typedef struct wide_tree {
-  float lo[4], hi[4];   // its box, and a number that means nothing
+  float lo[4], hi[4];   // its box; the fourth number is never read
   float large;          // slab_large of the box
   wide_node *nodes;     // nodes[0] is the root; NULL when there is nothing
   uint32_t *triangles;  // ten words a triangle, floats but for the numbers

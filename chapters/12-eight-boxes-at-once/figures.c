@@ -429,6 +429,14 @@ static void draw_patches(output *o) {
 
 // ---- Visits ----
 
+// How many children a node has, in the mean.
+static double children_of(const wide_tree *w) {
+  uint64_t sum = 0;
+  for (uint32_t i = 0; i < w->node_count; i++)
+    sum += (uint64_t)__builtin_popcount(w->nodes[i].valid);
+  return (double)sum / w->node_count;
+}
+
 // A table of what rays visit in either tree, kind by kind.
 static void print_visits(output *o, const rock *r, const bvh *b,
                          const wide_tree *w) {
@@ -456,8 +464,9 @@ static void print_visits(output *o, const rock *r, const bvh *b,
     printf("%-8s nodes %.1f -> %.1f, triangles %.1f -> %.1f\n",
            rays_kind_name((ray_kind)k), n[0] / c, n[1] / c, t[0] / c, t[1] / c);
   }
-  printf("%u binary nodes, %u wide ones; bytes a triangle %.1f\n",
-         b->node_count, w->node_count,
+  printf("%u binary nodes, %u wide ones of %.2f children; bytes a triangle "
+         "%.1f\n",
+         b->node_count, w->node_count, children_of(w),
          (double)wide_tree_bytes(w) / r->triangles);
 }
 
@@ -477,7 +486,7 @@ static void print_growth(output *o) {
               .triangle_count = r.triangles};
     ray_source from = {
         .m = &m, .tree = wide_tracer(&w), .size = 200, .limit = 40000};
-    printf("%u triangles:", r.triangles);
+    printf("%u triangles, %.2f children a node:", r.triangles, children_of(&w));
     for (int k = RAYS_PRIMARY; k <= RAYS_BOUNCE; k += RAYS_BOUNCE) {
       ray_set s;
       double n = 0, t = 0;
