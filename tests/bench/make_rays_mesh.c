@@ -4,7 +4,7 @@
 //   build/make_rays_mesh FORM TRIANGLES >mesh.obj
 //
 // FORM rock: a sphere with bumps of all sizes, closed, at least TRIANGLES
-// triangles, as a scan is.  FORM columns: upright prisms of 40 sides and
+// triangles, as a scan is.  FORM columns: leaning prisms of 40 sides and
 // aspect 50 to 400 in a hall, two triangles a side: long and thin, as halls of
 // columns are.  FORM stadium: a small dense rock in the middle of a large
 // bowl of few triangles.
