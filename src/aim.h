@@ -13,12 +13,12 @@
 enum { AIM_SPHERES = 8 };
 
 // What a cell aims at: spheres, by columns, and the sums of their
-// probabilities up to each.  root and least say what a ray is worth: the root
-// of the mean square that one aimed ray brings to a white matt surface, and
-// how many of them bring as much as one scattered ray.
+// probabilities up to each.  root and least say what a ray is worth: S is the
+// mean square that one aimed ray brings to a white matt surface, B that of a
+// scattered ray.
 typedef struct aim_cell {
-  uint32_t count;  // 0: nothing to aim at
-  float root, least;
+  uint32_t count;     // 0: nothing to aim at
+  float root, least;  // sqrt(S), S / B
   float upto[AIM_SPHERES];
   float x[AIM_SPHERES], y[AIM_SPHERES], z[AIM_SPHERES], radius[AIM_SPHERES];
 } aim_cell;
@@ -37,7 +37,7 @@ enum { AIM_LEAF = 3 };
 typedef struct aim_map {
   aim_node *nodes;
   aim_cell *cells;
-  float keen;  // see aim_asked
+  float keen;  // 1 / sqrt(what a ray must take away), see aim_asked
 } aim_map;
 
 // The cell of a place; NULL where there is nothing to aim at.
@@ -49,7 +49,7 @@ enum { AIM_RAYS = 16 };
 // How many rays, on average, a path of that throughput aims.
 float aim_asked(const aim_map *m, const aim_cell *c, float throughput);
 
-// How much of the mean square so many take away.
+// How much so many take away from the mean square.
 float aim_gain(const aim_cell *c, float asked, float throughput);
 
 // A direction from o by three numbers of [0, 1): a sphere, and uniform over

@@ -20,8 +20,8 @@ enum { LOOKS = 2 };
 // square of its samples must shrink.
 #define WORTH 0.02
 
-// How many rays a picture may cost: the variance that one more must take away
-// is this share of the square of the brightness.
+// What a ray costs: the variance that one more must take away is so many times
+// the square of the brightness of the picture.
 #define PRICE 5.0f
 
 typedef struct look_job {

@@ -10,8 +10,8 @@
 
 // Light that has come down at x on a surface that faces n, from the point y of
 // the last mirror or glass: its radiance, the power that it would stand for if
-// it had been the only try, and the cosine at x; and where it began: in which
-// stretch, and whether behind the triangle.
+// it had been the only try, the cosine at x, and where it began: the stretch,
+// and whether behind the triangle.
 typedef struct aim_photon {
   vec3 x, n, y;
   float radiance, power, cosine;
@@ -22,7 +22,7 @@ typedef struct aim_photon {
 typedef struct aim_photons {
   aim_photon *of;
   size_t count;
-  double tries;  // as many evenly over mirrors and glass would bring as much
+  double tries;  // so many, over all mirrors and glass, would bring as much
 } aim_photons;
 
 // Where light may take that way: mirrors and glass of a scene, by area, which

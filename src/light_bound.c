@@ -1,6 +1,7 @@
-// light_bound.c — no angle is ever computed: a light within a sphere of radius
-// r at distance d is seen within sin = r / d of the direction to its middle,
-// and cos(a - b) <= cos a + sin b.
+// light_bound.c — no angle is ever computed.  A light within a sphere of radius
+// r at distance d is seen within an angle b of the direction to its middle, sin
+// b = r / d; its best cosine, cos(a - b), is taken for cos a + sin b.  That is
+// an upper bound while cos a >= 0, and positive exactly where the cosine is.
 
 #include "light_bound.h"
 

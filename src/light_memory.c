@@ -14,7 +14,8 @@ enum { NEAR = 3, SOME = GRID / NEAR, REGIONS = SOME * SOME * SOME * SIDES };
 // certain.
 #define DOUBT 0.1f
 
-// A cell takes its own records for as certain as so many of all cells.
+// A cell adds so many records of its region to its own, and a region as many of
+// the whole scene.
 #define SHARED 2.0f
 
 // The least probability that any light is asked.

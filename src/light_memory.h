@@ -39,9 +39,9 @@ typedef struct light_memory {
 bool light_memory_new(light_memory *out, const light_tree *t, vec3 lo, vec3 hi,
                       arena *mem);
 
-// Learn from n records; what was known before is forgotten.  The result is how
-// many questions to a part by its power are worth one question now, by what
-// the records say of themselves.
+// Learn from n records; what was known before is forgotten.  The result is the
+// gain: the mean square of a question if parts were chosen by their power, over
+// that by what was learned, both as the records tell.
 double light_memory_learn(light_memory *m, const light_record *records,
                           size_t n, arena *mem);
 

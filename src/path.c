@@ -24,7 +24,7 @@ static bool look_alone(const wave *w, const stop *s, const bsdf *b,
   return true;
 }
 
-// The one question of `turns` what a light adds at v, if nothing is in between.
+// One of `turns` questions: what a light adds at v, if nothing is in between.
 static void ask_light(wave *w, const stop *s, const bsdf *b, uint32_t turns) {
   const vertex *v = s->at;
   const path *p = &w->paths[s->which];
@@ -127,7 +127,7 @@ static void stand(const wave *w, const stop *s, const bsdf *b) {
                     .odds = float_min(odds_of(&w->paths[s->which]), 1)};
 }
 
-// What a path finds from the second one on it may find for all of its group.
+// What a path finds from its second surface on may be for all of its group.
 static void share(wave *w, const stop *s) {
   path_shares *all = w->shares;
   size_t i = s->which;
@@ -203,9 +203,9 @@ static bool lifted_straight(const surface *at) {
   return high * high >= RAY_CLIMB * RAY_CLIMB * vec3_dot(lift, lift);
 }
 
-// The triangle that a path's next ray climbs away from.  By chance alone it
-// begins on the smooth surface, on the side that the last one came from; else
-// on the facet, on the side that it goes to.
+// The triangle that a path's next ray climbs away from, if any.  After a
+// direction of some density the ray begins on the smooth surface, on the side
+// that the last one came from; else on the facet, on the side that it goes to.
 static uint32_t left_by(const wave *w, const stop *s, const ray *r) {
   const surface *at = &s->at->at;
   if (!ray_climbs(r->d, at->ng)) return HIT_NONE;

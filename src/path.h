@@ -6,7 +6,7 @@
 
 #include "path_tracer.h"
 
-// Unbiased for any max_depth, as path_naive is, of the same transport.
+// Unbiased for any max_depth: its mean is that of path_naive.
 integrator path_integrator(const path_tracer *p);
 
 #endif

@@ -20,8 +20,8 @@ typedef struct group {
 // Deal the pixels of a block out to groups, differently for each block and
 // sample: number `at` gets another number, whose first digits are the group and
 // whose last are the seat.  A group has pixels of one color of a chessboard:
-// who decides by those of one how many samples the others get (chapter 15)
-// needs to know that they know nothing of each other.
+// chapter 15 decides by those of one color how many samples the others get, so
+// these must know nothing of each other.
 static uint32_t deal(const group *g, uint32_t at) {
   enum { ALL = GROUP * BLOCK_GROUPS / 2 };
   uint32_t color = (at ^ at / BLOCK_WIDTH) % 2;

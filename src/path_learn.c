@@ -11,9 +11,8 @@
 // questions at each of its vertices.
 enum { PIXELS_PER_PATH = 4, MOST_PATHS = 1 << 16, QUESTIONS = 8 };
 
-// After this share of the paths the first lesson ends, and what is remembered
-// must be worth so much; before that there is a trial of a smaller share, after
-// which there must be hope.
+// The lesson goes on after one path of FIRST_SHARE only if the gain by then is
+// WORTH, and after one of TRIAL_SHARE only if there is HOPE.
 enum { FIRST_SHARE = 6, TRIAL_SHARE = 24 };
 #define WORTH 1.25
 #define HOPE 1.1

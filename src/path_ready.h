@@ -50,8 +50,8 @@ typedef struct stop {
   bool lit;  // also of light
 } stop;
 
-// Vertices to be found.  All of lights is asked only where lights is not NULL;
-// it is then such as path_ready_lights says.
+// Vertices to be found.  Lights are asked where `lights` is not NULL: then
+// path_ready_lights holds for them.
 typedef struct ready_job {
   const scene *scene;
   const light_set *lights;
@@ -74,8 +74,8 @@ typedef void starts_function(uint64_t seed, const path_row *row,
 
 stop path_ready_stop(vertex *at, const path_ready *r, int lane);
 
-// The stop with the numbers for question i of so many to lights: one in each
-// part of as many of the first, and other points.
+// The stop with the numbers for question i of so many to lights: number i of as
+// many equal parts of [0, 1) chooses the light, and the point on it moves on.
 stop path_ready_turn(const stop *s, uint32_t i, uint32_t turns);
 
 // What a light sample meets at a surface: the cosine to it, f, and the density
@@ -90,8 +90,8 @@ typedef struct meeting {
 bool path_ready_light(const stop *s, light_sample *l, meeting *m);
 ray path_ready_shadow(const stop *s);
 
-// What one that is ready knows: the ray that goes on, and how it was sampled
-// but for wi.
+// What a stop that is ready knows: the ray that goes on; sets weight and pdf of
+// its direction.
 ray path_ready_leave(const stop *s, bsdf_sample *d);
 
 // Whether all lights are triangles.

@@ -27,7 +27,7 @@ static bool faces(const share_stand *from, const share_find *to) {
 // Its density per area of what is found, times pi.
 static float density(const share_stand *from, const share_find *to) {
   vec3 d = vec3_sub(to->p, from->from);
-  float square = vec3_dot(d, d);  // whose square small scenes do not have
+  float square = vec3_dot(d, d);  // its square would be 0 in small scenes
   return vec3_dot(from->n, d) / square * (-vec3_dot(to->ng, d) / square);
 }
 

@@ -21,7 +21,7 @@ typedef struct path_tracer {
   uint32_t questions;     // to lights at every vertex; 0: one
   const aim_map *aim;     // NULL: no ray is aimed
   const path_film *film;  // NULL: nothing is shared
-  double *gain;           // of these, by aim_gain, is added; NULL: not
+  double *gain;           // aim_gain of all aimed rays is added; NULL: not
 } path_tracer;
 
 #endif

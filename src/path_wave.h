@@ -12,7 +12,7 @@ typedef struct path {
   vec3 sum, throughput;
   vec3 from, from_n;  // where the last direction was sampled, and the normal
   float pdf;          // of that direction; 0 where only a delta could give it
-  float scale;        // of the throughput, for who decides by it
+  float scale;        // of the throughput, for roulette and aiming
   int segment, inside;
   path_trail trail;
 } path;
@@ -46,7 +46,7 @@ typedef struct wave {
   path_stats *stats;
   bool sheets, lights;  // whether there are any
   bool lit;             // whether ready knows of lights
-  bool even;            // whether the sky is, and found by chance alone
+  bool even;            // a constant sky, for which no light is asked
   vec3 sky;
   path *paths;
   uint32_t *alive;
