@@ -13,7 +13,7 @@
 // The most mirrors and glass on a way, and the tries of a batch.
 enum { LONGEST = 6, BATCH = 1024 };
 
-// So many tries know whether light comes down from where they begin.
+// After so many tries from somewhere it is known whether light comes down.
 enum { SURE = 64 };
 
 struct aim_mirrors {

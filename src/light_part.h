@@ -22,8 +22,7 @@ typedef struct light_parts {
   uint32_t cuts, count;
 } light_parts;
 
-// More emitters than these are not cut, and more parts than the latter not
-// made.
+// The most emitters that are cut, and the most parts of all of them.
 enum { LIGHT_PARTS_EMITTERS = 64, LIGHT_PARTS_MOST = 64 };
 
 // False when there are no emitters or too many, or parts too small for floats.

@@ -7,8 +7,8 @@
 #include "path_group.h"
 #include "vertex.h"
 
-// What is found for all of a group is worth so much less to each of them: their
-// paths lose throughput by so much before they play roulette for it.
+// Paths that look for all of a group play roulette as if they had so much of
+// their throughput: to each pixel what they find is worth less.
 #define SHARE_SCALE 0.5f
 
 // Where a path first met a matt surface: where its ray left, the normal and the
