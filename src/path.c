@@ -10,23 +10,14 @@
 #include "roulette.h"
 #include "tracer.h"
 
-static light_question question_of(const stop *s) {
-  vec3 u = {s->u[USE_PICK], s->u[USE_LIGHT], s->u[USE_LIGHT + 1]};
-  return (light_question){s->at->at.p, s->at->n, u};
-}
-
 // Sample a light for v; false where none is met.
 static bool look_alone(const wave *w, const stop *s, const bsdf *b,
                        light_sample *l, meeting *m) {
   const vertex *v = s->at;
-  size_t i = (size_t)(v - w->met->at);
-  light_question q = question_of(s);
-  if (w->together && w->met->asked[i])
-    *l = w->met->light[i];
-  else
-    light_sample_at(w->by->lights, q.p, q.n, q.u, l);
+  vec3 u = {s->u[USE_PICK], s->u[USE_LIGHT], s->u[USE_LIGHT + 1]};
+  bool found = light_sample_at(w->by->lights, v->at.p, v->n, u, l);
   vec3 wi = vertex_local(v, l->wi), wo = vertex_local(v, v->wo);
-  if (!(l->pdf > 0 && wi.z > 0)) return false;
+  if (!found || !(wi.z > 0)) return false;
   m->cosine = wi.z;
   m->f = l->delta ? bsdf_eval_point(b, wo, wi) : bsdf_eval(b, wo, wi);
   m->pdf = bsdf_pdf(b, wo, wi);
@@ -185,24 +176,50 @@ static bool goes_through(stop *s) {
   return false;
 }
 
+// Whether a path that is alive takes another step: it has had so many.
+static bool goes_on(const wave *w, bool alive) {
+  if (w->steps + 1 < ROULETTE_MAX_RAYS) return alive;
+  w->stats->cut += alive;
+  return false;
+}
+
 // What becomes of a path at a vertex; *r is then its next ray.  False where it
 // ends.
 static bool step(wave *w, stop *s, ray *r) {
   path *p = &w->paths[s->which];
   const path_world *world = w->by->world;
-  bool goes_on;
+  bool alive = true;
   if (goes_through(s)) {
     *r = surface_ray(&s->at->at, r->d);
-    goes_on = true;
   } else {
     if (s->at->at.front) wave_meet_glow(w, p, s->at);
     bool last = world->max_depth > 0 && p->segment >= world->max_depth;
     if (!last) share(w, s);
-    goes_on = !last && bounce(w, s, r);
+    alive = !last && bounce(w, s, r);
   }
-  if (w->steps + 1 < ROULETTE_MAX_RAYS) return goes_on;
-  w->stats->cut += goes_on;
-  return false;
+  return goes_on(w, alive);
+}
+
+// The same where the vertex in lane i is plain.
+static bool hop(wave *w, uint32_t which, const path_ready *v, int i, ray *r) {
+  path *p = &w->paths[which];
+  const path_world *world = w->by->world;
+  if (world->max_depth > 0 && p->segment >= world->max_depth) return false;
+  if (v->lit) {
+    stop s = {.which = which, .ready = v, .lane = i, .lit = true};
+    ask_light(w, &s, NULL, 1);
+  }
+  if (world->lamps_only && p->segment + 1 == world->max_depth) return false;
+  p->throughput = vec3_mul(p->throughput, lanes_at(&v->weight, i));
+  if (!(vec3_peak(p->throughput) > 0)) return false;
+  if (!survives(p, v->u[USE_LIFE][i])) return false;
+  p->from = lanes_at(&v->p, i);
+  p->from_n = lanes_at(&v->n, i);
+  p->pdf = v->leave_pdf[i];
+  p->inside = 0;
+  p->segment++;
+  *r = ray_from(lanes_at(&v->from, i), lanes_at(&v->leave, i));
+  return goes_on(w, true);
 }
 
 // Whether the smooth surface is straight above the facet, or nearly.
@@ -223,38 +240,29 @@ static uint32_t left_by(const wave *w, const stop *s, const ray *r) {
   return above ? at->triangle : HIT_NONE;
 }
 
-// Those that are surely no mirrors or glass ask lights at once.
-static void ask_together(wave *w, size_t n) {
+// What becomes of the path at vertex i of w->met; false where it ends.
+static bool step_one(wave *w, size_t i, ray *r, uint32_t *left) {
   met *m = w->met;
-  light_question q[MET];
-  light_sample found[MET];
-  size_t count = 0, which[MET];
-  for (size_t i = 0; i < n; i++) {
-    stop s = path_ready_stop(&m->at[i], &m->ready[i / LANES], (int)(i % LANES));
-    m->asked[i] = s.ready != NULL;
-    if (!m->asked[i]) continue;
-    q[count] = question_of(&s);
-    which[count++] = i;
+  const path_ready *v = &m->ready[i / LANES];
+  int lane = (int)(i % LANES);
+  if (v->plain[lane]) {
+    *left = v->left[lane];
+    return hop(w, m->which[i], v, lane, r);
   }
-  if (count == 0) return;
-  light_samples_at(w->by->lights, q, count, found);
-  for (size_t i = 0; i < count; i++)
-    m->light[which[i]] = found[i];
+  stop s = path_ready_stop(&m->at[i], v, lane);
+  s.which = m->which[i];
+  *r = m->rays[i];
+  if (!step(w, &s, r)) return false;
+  *left = left_by(w, &s, r);
+  return true;
 }
 
 // Shade n of the paths whose rays have met a surface.
 static void step_some(wave *w, size_t n) {
-  met *m = w->met;
   wave_vertices(w, n);
-  if (w->together) ask_together(w, n);
   for (size_t i = 0; i < n; i++) {
-    ray r = m->rays[i];
-    stop s = path_ready_stop(&m->at[i], &m->ready[i / LANES], (int)(i % LANES));
-    s.which = m->which[i];
-    if (!step(w, &s, &r)) continue;
-    w->alive[w->next] = s.which;
-    w->left[w->next] = left_by(w, &s, &r);
-    w->rays[w->next++] = r;
+    if (!step_one(w, i, &w->rays[w->next], &w->left[w->next])) continue;
+    w->alive[w->next++] = w->met->which[i];
   }
 }
 
@@ -265,10 +273,10 @@ static void step_all(wave *w) {
                       w->steps > 0 ? w->left : NULL, w->hits, w->count);
   w->stats->rays += w->count;
   w->next = w->shadow_count = 0;
-  size_t n = 0, lost = 0;
+  size_t n = 0;
   for (size_t i = 0; i < w->count; i++) {
     if (w->hits[i].triangle == HIT_NONE) {
-      lost = wave_miss(w, lost, w->alive[i], &w->rays[i]);
+      wave_meet_sky(w, &w->paths[w->alive[i]], &w->rays[i]);
       continue;
     }
     vertex_expect(w->by->world->scene, w->hits[i].triangle);
@@ -281,7 +289,6 @@ static void step_all(wave *w) {
     n = 0;
   }
   step_some(w, n);
-  wave_meet_sky(w, lost);
   w->count = w->next;
   w->steps++;
 }
@@ -359,7 +366,6 @@ static void path_radiance(const void *self, const path_start *starts, size_t n,
   w->sheets = by->world->thorough || scene_has_sheets(by->world->scene);
   w->lights = by->world->thorough || light_set_any(by->lights);
   w->lit = w->lights && by->questions <= 1 && path_ready_lights(by->lights);
-  w->together = by->questions <= 1 && by->lights->env.irradiance > 0;
   const env *sky = &by->world->scene->env;
   w->even = sky->kind == ENV_CONSTANT && !(by->lights->env.irradiance > 0);
   w->sky = env_radiance(sky, (vec3){0, 1, 0});

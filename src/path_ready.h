@@ -28,8 +28,10 @@ enum {
 typedef struct path_ready {
   float u[USES][LANES];
   int32_t matt[LANES];
-  lanes3 kd, from;  // albedo; where rays leave
-  bool lit;         // whether lights were asked
+  int32_t plain[LANES];  // also path_plain: its vertex was not written down
+  lanes3 p, n;           // the point and the normal that scatters
+  lanes3 kd, from;       // albedo; where rays leave
+  bool lit;              // whether lights were asked
   // The answer of light_sample_at; the cosine of wi to the normal.
   int32_t found[LANES];
   uint32_t part[LANES];
@@ -38,7 +40,15 @@ typedef struct path_ready {
   // What bsdf_sample_wi gives, in the world.
   lanes3 leave, weight;
   float leave_pdf[LANES];
+  uint32_t left[LANES];  // the triangle that this ray climbs away from
 } path_ready;
+
+// Whether a material is matt and nothing else, the same everywhere: opaque,
+// dark, without maps.  Then its albedo.
+typedef struct path_plain {
+  vec3 kd;
+  bool is;
+} path_plain;
 
 // A vertex of a path, the numbers for it, and a lane where more is known.
 typedef struct stop {
@@ -55,7 +65,8 @@ typedef struct stop {
 typedef struct ready_job {
   const scene *scene;
   const light_set *lights;
-  uint32_t dimension;  // of the first number
+  const path_plain *plain;  // by material; NULL: all vertices are looked at
+  uint32_t dimension;       // of the first number
   const hit *hits;
   const ray *rays;
   const sampler *numbers;
@@ -64,6 +75,9 @@ typedef struct ready_job {
 } ready_job;
 
 typedef void ready_function(const ready_job *j, size_t n);
+
+// By material of a scene, in mem; NULL where colours are the corners'.
+const path_plain *path_ready_plain(const scene *s, arena *mem);
 
 // One by one, and none of them matt.
 void path_ready_alone(const ready_job *j, size_t n);

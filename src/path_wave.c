@@ -14,7 +14,7 @@ wave *wave_room(const path_tracer *by, arena *mem) {
   w->shadows = ARENA_NEW(mem, shadow, m);
   w->blocked = ARENA_NEW(mem, bool, m);
   w->met = ARENA_NEW(mem, met, 1);
-  w->missed = ARENA_NEW(mem, missed, 1);
+  w->plain = path_ready_plain(by->world->scene, mem);
   if (by->aim != NULL) w->aims = path_aims_room(mem);
   if (by->film != NULL) w->shares = ARENA_NEW(mem, path_shares, 1);
   return w;
@@ -51,42 +51,19 @@ static void add(path *p, float weight, vec3 radiance) {
   p->sum = vec3_mad(p->sum, weight, vec3_mul(p->throughput, radiance));
 }
 
-// What path p finds of the sky.
-static void meet_sky(const wave *w, path *p, const env_place *at) {
-  const env *sky = &w->by->world->scene->env;
+void wave_meet_sky(const wave *w, path *p, const ray *r) {
   float weight = p->pdf > 0 ? 1 : path_trail_weight(&p->trail, w->steps);
   if (w->even) {
-    if (vec3_finite(at->d)) add(p, weight, w->sky);
+    if (vec3_finite(r->d)) add(p, weight, w->sky);
     return;
   }
-  vec3 radiance = env_radiance_at(sky, at);
-  if (!(vec3_peak(radiance) > 0)) return;
-  if (p->pdf > 0 && w->lights) {
-    vec2 uv = sky->kind == ENV_MAP ? at->uv : env_uv(at->d);
+  vec3 d = vec3_unit(r->d);
+  vec3 sky = env_radiance(&w->by->world->scene->env, d);
+  if (!(vec3_peak(sky) > 0)) return;
+  if (p->pdf > 0)
     weight = wave_weight(p->pdf,
-                         light_pdf_env(w->by->lights, p->from, p->from_n, uv));
-  }
-  add(p, weight, radiance);
-}
-
-size_t wave_miss(const wave *w, size_t n, uint32_t which, const ray *r) {
-  missed *m = w->missed;
-  m->which[n] = which;
-  if (w->even) {
-    m->at[n].d = r->d;
-  } else {
-    m->at[n] = env_expect(&w->by->world->scene->env, vec3_unit(r->d));
-    if (w->lights) light_env_expect(&w->by->lights->env, m->at[n].uv);
-  }
-  if (n + 1 < MET) return n + 1;
-  wave_meet_sky(w, MET);
-  return 0;
-}
-
-void wave_meet_sky(const wave *w, size_t n) {
-  const missed *m = w->missed;
-  for (size_t i = 0; i < n; i++)
-    meet_sky(w, &w->paths[m->which[i]], &m->at[i]);
+                         light_pdf_env(w->by->lights, p->from, p->from_n, d));
+  add(p, weight, sky);
 }
 
 void wave_meet_glow(const wave *w, path *p, const vertex *v) {
@@ -100,11 +77,18 @@ void wave_meet_glow(const wave *w, path *p, const vertex *v) {
   add(p, weight, glow);
 }
 
+// Whether nobody asks more of plain vertices than their lanes know.
+static bool lanes_will_do(const wave *w) {
+  if (w->aims != NULL || w->shares != NULL || w->by->log != NULL) return false;
+  return !w->lights || (w->lit && !w->sheets);
+}
+
 void wave_vertices(const wave *w, size_t n) {
   const path_tracer *by = w->by;
   met *m = w->met;
   ready_job job = {.scene = by->world->scene,
                    .lights = w->lit ? by->lights : NULL,
+                   .plain = lanes_will_do(w) ? w->plain : NULL,
                    .dimension = 2 + USES * w->steps,
                    .hits = m->hits,
                    .rays = m->rays,

@@ -4,39 +4,11 @@
 #define READY_KERNEL_H
 
 #include "light_emission.h"
+#include "ready_lane.h"
 #include "ready_leave.h"
 #include "ready_numbers.h"
 #include "ready_pick.h"
 #include "ready_triangle.h"
-
-// The albedo of a surface that is matt and has no bumps, by matter.c; false
-// where it is something else.
-static inline bool lane_matt(const surface *s, vec3 *kd) {
-  const material *m = s->material;
-  if (m == NULL || m->kind != MATERIAL_BLINN_PHONG) return false;
-  if (vec3_peak(m->ks) > 0 || m->map_ks.image != NULL) return false;
-  if (m->map_bump.image != NULL || m->map_norm.image != NULL) return false;
-  vec3 c = m->kd;
-  if (m->map_kd.image != NULL) c = vec3_mul(c, texture_rgb(&m->map_kd, s->uv));
-  c = vec3_mul(c, s->color);
-  float down = 1 / float_max(1, vec3_peak(vec3_add(c, m->ks)));
-  *kd = vec3_scale(c, down);
-  return true;
-}
-
-// Lane i as the vertex of its hit, with its frame.
-static inline void lane_finish(ready_work *w, int i, const ready_job *j,
-                               size_t at) {
-  vertex *v = &j->at[at];
-  vec3 kd = {0, 0, 0};
-  lane_scatter(&w->v, i, j->scene, &j->hits[at], &j->rays[at], v);
-  bool matt = !w->v.odd[i] && w->r.matt[i] && lane_matt(&v->at, &kd);
-  lanes_set(&w->r.kd, i, kd);
-  w->r.matt[i] = matt;
-  v->n = lanes_at(&w->n, i);
-  v->t = lanes_at(&w->t, i);
-  v->b = lanes_at(&w->b, i);
-}
 
 // light_emission, which few need to be asked.
 static inline vec3 lane_radiance(const ready_work *w, int i,
@@ -89,6 +61,7 @@ static inline void ready_run(ready_work *w, const ready_job *j, size_t from,
     w->key_lo[i] = (uint32_t)j->numbers[k].key;
     w->key_hi[i] = (uint32_t)(j->numbers[k].key >> 32);
     w->index[i] = j->numbers[k].index;
+    w->triangle[i] = j->hits[k].triangle;
   }
   lanes_find(&w->v);
   ready_frame(w);
@@ -96,21 +69,26 @@ static inline void ready_run(ready_work *w, const ready_job *j, size_t from,
   if (m != NULL) ready_fetch(w, m);
   ready_draw(w, j, from, n);
   ready_from(w);
-  for (int i = 0; i < n; i++)
-    lane_finish(w, i, j, from + (size_t)i);
+  for (int i = 0; i < n; i++) {
+    w->r.plain[i] = lane_plain(w, i, j, from + (size_t)i);
+    if (!w->r.plain[i]) lane_finish(w, i, j, from + (size_t)i);
+  }
   for (int i = n; i < LANES; i++)
     w->r.matt[i] = 0;
   if (j->lights != NULL) ready_lights(w, j->lights);
   ready_leave(w);
+  w->r.p = w->v.p;
+  for (int i = 0; i < n; i++)
+    if (w->r.plain[i] & !w->r.matt[i]) lane_alone(w, i, j, from + (size_t)i);
 }
 
 static void ready_kernel(const ready_job *j, size_t n) {
-  ready_work w = {0};
+  ready_work w;
+  w.r = (path_ready){.lit = j->lights != NULL};
   for (size_t i = 0; i < n; i++)
     lane_expect(j->scene, &j->hits[i]);
   for (size_t i = 0; i < n; i += LANES) {
     ready_run(&w, j, i, n - i < LANES ? (int)(n - i) : LANES);
-    w.r.lit = j->lights != NULL;
     j->ready[i / LANES] = w.r;
   }
 }

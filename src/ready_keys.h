@@ -14,7 +14,7 @@ static inline void ready_keys(ready_work *w, const light_memory *m) {
   vec3 lo = m->lo;
   float per_unit = m->per_unit;
   for (int i = 0; i < LANES; i++) {
-    vec3 p = lanes_at(&w->v.p, i), n = lanes_at(&w->n, i);
+    vec3 p = lanes_at(&w->v.p, i), n = lanes_at(&w->r.n, i);
     vec3 at = vec3_scale(vec3_sub(p, lo), per_unit), a = vec3_abs(n);
     int key = (lane_step(at.z) * LIGHT_GRID + lane_step(at.y)) * LIGHT_GRID;
     key += lane_step(at.x);

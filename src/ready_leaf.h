@@ -12,7 +12,7 @@ static inline void ready_bound(const ready_work *w, const light_emitter *e,
   const light_triangle t = e->shape;
   float power = e->power;
   for (int i = 0; i < LANES; i++) {
-    vec3 p = lanes_at(&w->v.p, i), n = lanes_at(&w->n, i);
+    vec3 p = lanes_at(&w->v.p, i), n = lanes_at(&w->r.n, i);
     vec3 way = vec3_sub(t.middle, p);
     float distance = float_max(vec3_length(way), t.radius);
     float inverse = 1 / distance, sine = t.radius * inverse;

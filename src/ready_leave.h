@@ -15,7 +15,7 @@ static inline void ready_frame(ready_work *w) {
     vec3 n = {front ? ns.x : -ns.x, front ? ns.y : -ns.y, front ? ns.z : -ns.z};
     float sign = copysignf(1, n.z), a = -1 / (sign + n.z), c = n.x * n.y * a;
     w->r.matt[i] = vec3_dot(n, lanes_at(&w->v.wo, i)) > 0;
-    lanes_set(&w->n, i, n);
+    lanes_set(&w->r.n, i, n);
     lanes_set(&w->ng, i,
               (vec3){front ? ng.x : -ng.x, front ? ng.y : -ng.y,
                      front ? ng.z : -ng.z});
@@ -38,6 +38,16 @@ static inline void ready_from(ready_work *w) {
   }
 }
 
+// Whether a ray leaves lane i from straight above the front of its facet, and
+// climbs.
+static inline int lane_climbs(const ready_work *w, int i, vec3 d) {
+  vec3 ng = lanes_at(&w->v.ng, i);
+  vec3 lift = vec3_sub(lanes_at(&w->v.p_smooth, i), lanes_at(&w->v.p, i));
+  float high = vec3_dot(lift, ng);
+  int straight = high * high >= RAY_CLIMB * RAY_CLIMB * vec3_dot(lift, lift);
+  return w->v.front[i] & straight & ray_climbs(d, ng);
+}
+
 // bsdf_sample_wi of a matt surface, and vertex_world.
 static inline void ready_leave(ready_work *w) {
   for (int i = 0; i < LANES; i++) {
@@ -49,11 +59,12 @@ static inline void ready_leave(ready_work *w) {
     vec3 sum = vec3_scale(lanes_at(&w->t, i), wi.x);
     sum = vec3_mad(sum, wi.y, lanes_at(&w->b, i));
     int32_t odd = !(pdf > 0);
-    sum = lane_unit(vec3_mad(sum, wi.z, lanes_at(&w->n, i)), &odd);
+    sum = lane_unit(vec3_mad(sum, wi.z, lanes_at(&w->r.n, i)), &odd);
     w->r.matt[i] &= !odd;
     lanes_set(&w->r.leave, i, sum);
     lanes_set(&w->r.weight, i, vec3_scale(f, wi.z / pdf));
     w->r.leave_pdf[i] = pdf;
+    w->r.left[i] = lane_climbs(w, i, sum) ? w->triangle[i] : HIT_NONE;
   }
 }
 

@@ -52,7 +52,7 @@ static inline void lane_weigh(ready_work *w, int i, const light_tree *t,
   uint32_t emitter = 0;
   bool found = w->r.matt[i] && u < 1;
   if (found) {
-    light_place at = light_place_of(lanes_at(&w->v.p, i), lanes_at(&w->n, i));
+    light_place at = light_place_of(lanes_at(&w->v.p, i), lanes_at(&w->r.n, i));
     found = light_tree_pick(t, &at, u, &emitter, &w->light.share[i]);
   }
   if (!found) emitter = 0;

@@ -110,7 +110,7 @@ static inline void ready_point(ready_work *w) {
     lanes_set(&w->r.wi, i, wi);
     w->r.pdf[i] = density;
     w->r.chosen[i] = t->share[i];
-    w->r.cosine[i] = vec3_dot(wi, lanes_at(&w->n, i));
+    w->r.cosine[i] = vec3_dot(wi, lanes_at(&w->r.n, i));
   }
 }
 

@@ -29,9 +29,9 @@ typedef struct ready_view {
 typedef struct ready_work {
   lane_work v;
   path_ready r;
-  lanes3 n, t, b, ng;  // turned to wo's side
+  lanes3 t, b, ng;  // turned to wo's side, as r.n is
   uint32_t key_lo[LANES], key_hi[LANES], index[LANES];
-  uint32_t cell[LANES];
+  uint32_t cell[LANES], triangle[LANES];
   ready_light light;
   ready_view view;
 } ready_work;

@@ -19,9 +19,10 @@ static void assert_float(float a, float b) {
   assert_memory_equal(&a, &b, sizeof a);
 }
 
-// Boxes and balls of every kind of material; lamps nearby, far away and turned
-// away.
-static world *new_world(bool smooth, bool memory, bool few, light_set *lights) {
+// Balls of every kind of material, in a box unless it is open; lamps nearby,
+// far away and turned away.
+static world *new_world(bool smooth, bool memory, bool few, bool open,
+                        light_set *lights) {
   world *w = world_new();
   const vec3 grey = {0.7f, 0.6f, 0.5f}, bright = {0.9f, 0.8f, 0.2f};
   w->materials[0] = world_material(MATERIAL_BLINN_PHONG, grey, vec3_all(0));
@@ -36,7 +37,7 @@ static world *new_world(bool smooth, bool memory, bool few, light_set *lights) {
   w->materials[6] = w->materials[0];
   w->materials[6].d = 0.5f;
   w->materials[6].passes = true;
-  world_box(w, vec3_all(-2), vec3_all(2), true, 0);
+  if (!open) world_box(w, vec3_all(-2), vec3_all(2), true, 0);
   for (uint32_t i = 0; i < 7; i++)
     world_ball(w, (vec3){-1.5f + 0.5f * (float)i, i % 2 ? -1 : 0.3f, 0.2f},
                0.4f, 2, smooth, i == 1 ? 0 : i);
@@ -77,15 +78,25 @@ static int check_light(const light_set *l, const vertex *v, const float *u,
   return 1;
 }
 
-// The direction and the frame.
-static void check_leave(const vertex *ready, const vertex *v, const bsdf *b,
-                        const float *u, const path_ready *r, int i) {
+// The triangle that a ray climbs away from: it leaves the front side, not more
+// than so much beside the facet.
+static uint32_t left_of(const vertex *v, vec3 d) {
+  vec3 lift = vec3_sub(v->at.p_smooth, v->at.p);
+  float high = vec3_dot(lift, v->at.ng);
+  bool above = v->at.front &&
+               high * high >= RAY_CLIMB * RAY_CLIMB * vec3_dot(lift, lift);
+  return above && ray_climbs(d, v->at.ng) ? v->at.triangle : HIT_NONE;
+}
+
+// The point, the albedo and the direction.
+static void check_leave(const vertex *v, const bsdf *b, const float *u,
+                        const path_ready *r, int i) {
   bsdf_sample d;
   assert_int_equal(b->kind, BSDF_LAMBERT);
-  assert_vec3(ready->n, v->n);
-  assert_vec3(ready->t, v->t);
-  assert_vec3(ready->b, v->b);
+  assert_vec3(v->at.p, lanes_at(&r->p, i));
+  assert_vec3(v->n, lanes_at(&r->n, i));
   assert_vec3(b->kd, lanes_at(&r->kd, i));
+  assert_int_equal(left_of(v, lanes_at(&r->leave, i)), r->left[i]);
   assert_true(bsdf_sample_wi(b, vertex_local(v, v->wo), u[USE_LOBE],
                              u[USE_DIRECTION], u[USE_DIRECTION + 1], &d));
   assert_vec3(vertex_world(v, d.wi), lanes_at(&r->leave, i));
@@ -93,8 +104,18 @@ static void check_leave(const vertex *ready, const vertex *v, const bsdf *b,
   assert_float(d.pdf, r->leave_pdf[i]);
 }
 
+// What was written down of a vertex, with the frame where it is matt.
+static void check_vertex(const vertex *ready, const vertex *v, bool matt) {
+  assert_vec3(ready->at.p, v->at.p);
+  assert_vec3(ready->ns, v->ns);
+  if (!matt) return;
+  assert_vec3(ready->n, v->n);
+  assert_vec3(ready->t, v->t);
+  assert_vec3(ready->b, v->b);
+}
+
 typedef struct counts {
-  int matt, lit, plain;
+  int lambert, matt, plain, lit;
 } counts;
 
 static void check_one(const ready_job *j, size_t k, const dfg *table,
@@ -106,20 +127,23 @@ static void check_one(const ready_job *j, size_t k, const dfg *table,
   for (int d = 0; d < USES; d++)
     assert_float(u[d], r->u[d][i]);
   vertex v = vertex_at(j->scene, &j->hits[k], j->rays[k].d);
-  assert_vec3(v.at.p, j->at[k].at.p);
-  assert_vec3(v.ns, j->at[k].ns);
   matter m = vertex_matter(&v, table, u[USE_MATTER]);
-  c->plain += m.bsdf.kind == BSDF_LAMBERT;
+  bool plain = j->plain != NULL && v.at.material == j->scene->materials;
+  assert_int_equal(r->plain[i] != 0, plain && r->matt[i]);
+  if (!r->plain[i]) check_vertex(&j->at[k], &v, r->matt[i]);
+  c->lambert += m.bsdf.kind == BSDF_LAMBERT;
   if (!r->matt[i]) return;
   c->matt++;
-  check_leave(&j->at[k], &v, &m.bsdf, u, r, i);
+  c->plain += plain;
+  check_leave(&v, &m.bsdf, u, r, i);
   if (j->lights != NULL) c->lit += check_light(j->lights, &v, u, r, i);
 }
 
 // Runs of every length up to 64, at every dimension from which blocks begin
 // and samples of low and high numbers.
 static void check_level(const world *w, const light_set *lights,
-                        ready_function *by, sampler_kind kind, counts *c) {
+                        const path_plain *plain, ready_function *by,
+                        sampler_kind kind, counts *c) {
   hit hits[HITS];
   ray rays[HITS];
   vertex at[64];
@@ -128,6 +152,7 @@ static void check_level(const world *w, const light_set *lights,
   size_t n = world_hits(w, 3, hits, rays);
   ready_job j = {.scene = &w->scene,
                  .lights = lights,
+                 .plain = plain,
                  .numbers = numbers,
                  .at = at,
                  .ready = ready};
@@ -148,33 +173,44 @@ static void ready_is_alone(void **unused) {
   (void)unused;
   for (int k = 0; k < 7; k++) {
     light_set lights;
-    world *w = new_world(k % 2, k<4, k> 4, &lights);
-    counts c = {0, 0, 0};
+    world *w = new_world(k % 2, k<4, k> 4, false, &lights);
+    counts c = {0};
+    const path_plain *plain =
+        k % 2 ? path_ready_plain(&w->scene, &w->mem) : NULL;
     assert_int_equal(k > 4, lights.near.nodes[0].count > 0);
     int levels = 0;
     for (int level = 0; level < WIDE_LEVELS; level++) {
       ready_function *by = ready_by(level);
       if (by == NULL) continue;
       levels++;
-      check_level(w, k == 3 ? NULL : &lights, by,
+      check_level(w, k == 3 ? NULL : &lights, plain, by,
                   k == 2 ? SAMPLER_RANDOM : SAMPLER_SOBOL, &c);
     }
-    print_message("# %d levels: %d matt, %d of them lit, of %d\n", levels,
-                  c.matt, c.lit, c.plain);
+    print_message("# %d levels: %d matt, %d of them plain, %d lit, of %d\n",
+                  levels, c.matt, c.plain, c.lit, c.lambert);
     assert_true(c.matt > 1000 * levels);
-    assert_true(c.matt > c.plain * 9 / 10);
+    assert_true(c.matt > c.lambert * 9 / 10);
+    assert_true(plain == NULL || c.plain > c.matt / 4);
     assert_true(k == 3 || c.lit > 300 * levels);
     world_free(w);
   }
 }
 
-// Whole paths: the same radiance with and without, of all levels.
+// Whole paths: the same radiance with and without, of all levels.  From k = 4
+// on without sheets, so that vertices are plain; then under the sky alone.
 static void paths_are_alone(void **unused) {
   (void)unused;
   enum { STARTS = 400 };
-  for (int k = 0; k < 4; k++) {
+  for (int k = 0; k < 6; k++) {
     light_set lights;
-    world *w = new_world(k % 2, k < 2, k == 2, &lights);
+    world *w = new_world(k % 2, k < 2, k == 2, k == 5, &lights);
+    w->materials[6].passes = k < 4;
+    if (k == 5) {
+      w->materials[1].ke = vec3_all(0);
+      w->scene.env =
+          (env){.kind = ENV_CONSTANT, .scale = 1, .constant = {1, 2, 3}};
+      light_set_build(&lights, &w->scene, false, false, &w->mem, NULL);
+    }
     camera_view view =
         world_view((vec3){1, 0.5f, 1.5f}, (vec3){-1, 0, -1}, 70, 100, 10);
     path_start starts[STARTS];
@@ -204,7 +240,7 @@ static void paths_are_alone(void **unused) {
 static void rows_are_alone(void **unused) {
   (void)unused;
   light_set lights;
-  world *w = new_world(false, false, true, &lights);
+  world *w = new_world(false, false, true, false, &lights);
   camera_view view =
       world_view((vec3){1, 0.5f, 1.5f}, (vec3){-1, 0, -1}, 70, 100, 10);
   for (uint32_t k = 0; k < 3000; k++) {
