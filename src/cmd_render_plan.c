@@ -40,7 +40,7 @@ void render_plan_note_paths(render_job *j) {
   if (p->of.samples == 0) p->line[PLAN_PATHS].all = r->samples - p->of.before;
   plan_note(p, PLAN_LAMPS, j->shot.scene.light_count, -1, 0);
   plan_note(p, PLAN_ENV_TABLE, e->columns != NULL, -1,
-            2.0 * sizeof(float) * e->width * e->height);
+            1.25 * sizeof(uint32_t) * e->map.width * e->map.height);
   plan_note(p, PLAN_ASK, r->paths.asked, -1, 0);
   plan_note(p, PLAN_SHADOW_RAY, r->paths.shadows, -1, 0);
   p->line[PLAN_SHADOW_RAY].all = r->paths.asked;

@@ -47,20 +47,29 @@ vec3 env_direction(vec2 uv) {
   return (vec3){-around.y * down.y, down.x, around.x * down.y};
 }
 
-// Bilinear at (u, v), texel centres at (i + 0.5) / n; u of any value wraps.
-static vec3 map_lookup(const image *m, float u, float v) {
+// The four texels around a place, and how far it is from the first.
+typedef struct corners {
+  const vec3 *above, *below;  // rows
+  int left, right;
+  float x, y;
+} corners;
+
+// Texel centres at (i + 0.5) / n; u of any value wraps.
+static corners corners_at(const image *m, float u, float v) {
   float x = (u - floorf(u)) * (float)m->width - 0.5f;
   float y = v * (float)m->height - 0.5f;
   int x0 = (int)floorf(x), y0 = (int)floorf(y);
-  float fx = x - floorf(x), fy = y - floorf(y);
-  int left = x0 < 0 ? m->width - 1 : x0 < m->width ? x0 : 0;
-  int right = left + 1 < m->width ? left + 1 : 0;
   int above = y0 < 0 ? 0 : y0 < m->height ? y0 : m->height - 1;
   int below = y0 + 1 < m->height ? y0 + 1 : m->height - 1;
-  const vec3 *a = m->pixels + (size_t)above * (size_t)m->width;
-  const vec3 *b = m->pixels + (size_t)below * (size_t)m->width;
-  return vec3_lerp(vec3_lerp(a[left], a[right], fx),
-                   vec3_lerp(b[left], b[right], fx), fy);
+  corners c = {.above = m->pixels + (size_t)above * (size_t)m->width,
+               .below = m->pixels + (size_t)below * (size_t)m->width,
+               .left = x0 < 0          ? m->width - 1
+                       : x0 < m->width ? x0
+                                       : 0,
+               .x = x - floorf(x),
+               .y = y - floorf(y)};
+  c.right = c.left + 1 < m->width ? c.left + 1 : 0;
+  return c;
 }
 
 // d turned about +Y so that its u grows by that many turns.
@@ -69,20 +78,41 @@ static vec3 turned_about_y(vec3 d, float turns) {
   return (vec3){d.x * cs.x - d.z * cs.y, d.y, d.z * cs.x + d.x * cs.y};
 }
 
-vec3 env_radiance(const env *e, vec3 d) {
+env_place env_expect(const env *e, vec3 d) {
+  env_place p = {.d = d};
+  if (e->kind != ENV_MAP || e->map.pixels == NULL || !vec3_finite(d)) return p;
+  p.uv = env_uv(d);
+  corners c = corners_at(&e->map, p.uv.x + e->rotate, p.uv.y);
+  __builtin_prefetch(c.above + c.left);
+  __builtin_prefetch(c.below + c.left);
+  return p;
+}
+
+// Bilinear.
+static vec3 map_radiance(const env *e, vec2 uv) {
+  corners c = corners_at(&e->map, uv.x + e->rotate, uv.y);
+  vec3 above = vec3_lerp(c.above[c.left], c.above[c.right], c.x);
+  vec3 below = vec3_lerp(c.below[c.left], c.below[c.right], c.x);
+  return vec3_scale(vec3_lerp(above, below, c.y), e->scale);
+}
+
+vec3 env_radiance_at(const env *e, const env_place *p) {
+  vec3 d = p->d;
   if (!vec3_finite(d)) return vec3_all(0);
   switch (e->kind) {
   case ENV_CONSTANT: return vec3_scale(e->constant, e->scale);
   case ENV_SKY:
     if (e->rotate != 0) d = turned_about_y(d, e->rotate);
     return vec3_scale(sky_radiance(d), e->scale);
-  case ENV_MAP: {
-    if (e->map.pixels == NULL) return vec3_all(0);
-    vec2 uv = env_uv(d);
-    return vec3_scale(map_lookup(&e->map, uv.x + e->rotate, uv.y), e->scale);
-  }
+  case ENV_MAP:
+    return e->map.pixels != NULL ? map_radiance(e, p->uv) : vec3_all(0);
   default: return vec3_all(0);
   }
+}
+
+vec3 env_radiance(const env *e, vec3 d) {
+  env_place p = env_expect(e, d);
+  return env_radiance_at(e, &p);
 }
 
 bool env_load(env *out, const char *path, arena *mem, report *r, error *err) {

@@ -25,6 +25,16 @@ typedef struct env {
 // that was not loaded and for a direction that is not finite.
 vec3 env_radiance(const env *e, vec3 d);
 
+// A direction, and where a map has it; found once for all who ask.
+typedef struct env_place {
+  vec3 d;
+  vec2 uv;  // before rotation, of maps only
+} env_place;
+
+// env_radiance in two steps, so that the texels can come nearer in between.
+env_place env_expect(const env *e, vec3 d);
+vec3 env_radiance_at(const env *e, const env_place *p);
+
 // The (u, v) in [0, 1) x [0, 1] of a unit direction before rotation, and back.
 // u = 0.5 + atan2(d.x, -d.z) / 2 pi, v = acos(d.y) / pi.
 vec2 env_uv(vec3 d);

@@ -163,34 +163,64 @@ static bool sample_far(const light_set *l, const light_place *at, float sum,
   return out->pdf > 0;
 }
 
-static bool sample_env(const light_set *l, vec3 u, light_sample *out) {
-  *out = (light_sample){0};
-  if (!light_env_sample(&l->env, u.y, u.z, &out->wi, &out->pdf)) return false;
-  out->radiance = env_radiance(l->env.env, out->wi);
-  return true;
+// Choose a kind of light, and ask it; *share is the probability of the kind.
+// Only the environment is left to be asked where true.
+static bool ask_all_but_env(const light_set *l, const light_question *q,
+                            light_sample *out, float *share) {
+  light_place at = light_place_of(q->p, q->n);
+  shares s = shares_at(l, &at);
+  double choice = light_finer(q->u), near = (double)s.near;
+  *out = (light_sample){.part = LIGHT_NO_PART};
+  *share = s.env;
+  if (choice - near >= (double)s.far) return s.env > 0;
+  bool found;
+  if (choice < near) {
+    *share = s.near;
+    found = sample_near(l, &at, choice / near, q->u, out);
+  } else {
+    *share = s.far;
+    found = sample_far(l, &at, s.far_sum, (choice - near) / (double)s.far, out);
+  }
+  out->pdf = found ? out->pdf * *share : 0;
+  out->chosen *= *share;
+  return false;
+}
+
+// So many wait together.
+enum { TOGETHER = 64 };
+
+// As light_samples_at, of TOGETHER at most.
+static void sample_some(const light_set *l, const light_question *q, size_t n,
+                        light_sample *out) {
+  light_sample *to[TOGETHER];
+  float share[TOGETHER];
+  vec2 u[TOGETHER];
+  env_sample found[TOGETHER];
+  size_t count = 0;
+  for (size_t i = 0; i < n; i++) {
+    if (!ask_all_but_env(l, &q[i], &out[i], &share[count])) continue;
+    u[count] = (vec2){q[i].u.y, q[i].u.z};
+    to[count++] = &out[i];
+  }
+  light_env_samples(&l->env, u, count, found);
+  for (size_t i = 0; i < count; i++) {
+    to[i]->wi = found[i].wi;
+    to[i]->radiance = found[i].radiance;
+    to[i]->pdf = found[i].pdf * share[i];
+  }
+}
+
+void light_samples_at(const light_set *l, const light_question *q, size_t n,
+                      light_sample *out) {
+  for (size_t i = 0; i < n; i += TOGETHER)
+    sample_some(l, q + i, n - i < TOGETHER ? n - i : TOGETHER, out + i);
 }
 
 bool light_sample_at(const light_set *l, vec3 p, vec3 n, vec3 u,
                      light_sample *out) {
-  light_place at = light_place_of(p, n);
-  shares s = shares_at(l, &at);
-  double choice = light_finer(u);
-  float share = s.near;
-  bool found;
-  *out = (light_sample){.part = LIGHT_NO_PART};
-  if (choice < (double)s.near)
-    found = sample_near(l, &at, choice / (double)s.near, u, out);
-  else if (choice - (double)s.near < (double)s.far) {
-    share = s.far;
-    found = sample_far(l, &at, s.far_sum,
-                       (choice - (double)s.near) / (double)s.far, out);
-  } else {
-    share = s.env;
-    found = s.env > 0 && sample_env(l, u, out);
-  }
-  out->pdf *= share;
-  out->chosen *= share;
-  return found && out->pdf > 0;
+  light_question q = {p, n, u};
+  sample_some(l, &q, 1, out);
+  return out->pdf > 0;
 }
 
 // The emitter that a triangle is; false when it is none.
@@ -225,8 +255,8 @@ float light_pdf_triangle(const light_set *l, vec3 p, vec3 n, uint32_t triangle,
   return pdf * shares_at(l, &at).near * share;
 }
 
-float light_pdf_env(const light_set *l, vec3 p, vec3 n, vec3 wi) {
+float light_pdf_env(const light_set *l, vec3 p, vec3 n, vec2 uv) {
   if (!(l->env.irradiance > 0)) return 0;
   light_place at = light_place_of(p, n);
-  return shares_at(l, &at).env * light_env_pdf(&l->env, wi);
+  return shares_at(l, &at).env * light_env_density(&l->env, uv);
 }

@@ -70,10 +70,19 @@ static inline double light_finer(vec3 u) {
 
 // Choose by u, three numbers of [0, 1): light, then direction.  n is the
 // normal of what is lit at p from the side of n only; zero when it lets light
-// through.  A light that is only partly opaque shines as much less.  False
-// when no light was found.
+// through.  A light that is only partly opaque shines as much less.  False, and
+// pdf 0, when no light was found.
 bool light_sample_at(const light_set *l, vec3 p, vec3 n, vec3 u,
                      light_sample *out);
+
+// The same for n questions, which wait for the tables of the environment
+// together.
+typedef struct light_question {
+  vec3 p, n, u;
+} light_question;
+
+void light_samples_at(const light_set *l, const light_question *q, size_t n,
+                      light_sample *out);
 
 // The density with which light_sample_at, for the same p and n, gives the
 // direction to the point q of a triangle, by that triangle; 0 when it does not
@@ -81,7 +90,7 @@ bool light_sample_at(const light_set *l, vec3 p, vec3 n, vec3 u,
 float light_pdf_triangle(const light_set *l, vec3 p, vec3 n, uint32_t triangle,
                          vec3 q);
 
-// The same for the environment in direction wi.
-float light_pdf_env(const light_set *l, vec3 p, vec3 n, vec3 wi);
+// The same for the environment in the unit direction whose env_uv is uv.
+float light_pdf_env(const light_set *l, vec3 p, vec3 n, vec2 uv);
 
 #endif

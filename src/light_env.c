@@ -4,6 +4,8 @@
 
 #include "num.h"
 
+#include <string.h>
+
 // The texels that the built-in sky is tabulated with.
 enum { SKY_WIDTH = 128, SKY_HEIGHT = 64 };
 
@@ -17,19 +19,38 @@ static int clamped(int i, int n) {
 }
 
 static float mean_of(vec3 c) {
-  return c.x / 3 + c.y / 3 + c.z / 3;
+  const float third = 1.0f / 3;
+  return c.x * third + c.y * third + c.z * third;
 }
 
-static float value_at(const light_env *l, int x, int y) {
-  return l->values[(size_t)y * (size_t)l->width + (size_t)x];
+// What of radiance is above the mean.
+static float above_mean(const light_env *l, vec3 c) {
+  return float_max(mean_of(c) - l->mean, 0);
 }
 
 // Row j of cells lies between the texel rows j - 1 and j, column i likewise.
-static cell cell_at(const light_env *l, int i, int j) {
-  int left = i > 0 ? i - 1 : l->width - 1;
-  int above = clamped(j - 1, l->height), below = clamped(j, l->height);
-  return (cell){value_at(l, left, above), value_at(l, i, above),
-                value_at(l, left, below), value_at(l, i, below)};
+typedef struct corners {
+  const vec3 *above, *below;  // rows of the map
+  float above_scale, below_scale;
+  int left, right;
+} corners;
+
+static corners corners_of(const light_env *l, int i, int j) {
+  const image *m = &l->map;
+  int above = clamped(j - 1, m->height), below = clamped(j, m->height);
+  return (corners){.above = m->pixels + (size_t)above * (size_t)m->width,
+                   .below = m->pixels + (size_t)below * (size_t)m->width,
+                   .above_scale = l->scale[above],
+                   .below_scale = l->scale[below],
+                   .left = i > 0 ? i - 1 : m->width - 1,
+                   .right = i};
+}
+
+static cell cell_of(const light_env *l, const corners *c) {
+  return (cell){above_mean(l, c->above[c->left]) * c->above_scale,
+                above_mean(l, c->above[c->right]) * c->above_scale,
+                above_mean(l, c->below[c->left]) * c->below_scale,
+                above_mean(l, c->below[c->right]) * c->below_scale};
 }
 
 static float cell_mean(const cell *c) {
@@ -37,11 +58,11 @@ static float cell_mean(const cell *c) {
 }
 
 static float cell_height(const light_env *l, int j) {
-  return j == 0 || j == l->height ? 0.5f : 1;
+  return j == 0 || j == l->map.height ? 0.5f : 1;
 }
 
-static float row_sine(const light_env *l, int row) {
-  return num_circle(((float)row + 0.5f) / (float)l->height * 0.5f).y;
+static float row_sine(int row, int height) {
+  return num_circle(((float)row + 0.5f) / (float)height * 0.5f).y;
 }
 
 // The built-in sky as a map, unrotated.
@@ -58,37 +79,36 @@ static image sky_map(const env *e, arena *mem) {
   return map;
 }
 
-// Fills the values with radiance; its mean over the sphere.
-static float fill_values(light_env *l, const image *map, float *peak) {
+// The mean of a map's radiance over the sphere, and the largest.
+static float mean_and_peak(const image *map, float *peak) {
   double sum = 0, weight = 0;
-  float *value = l->values;
+  const vec3 *pixel = map->pixels;
   *peak = 0;
-  for (int y = 0; y < l->height; y++) {
-    double of_row = 0, sine = (double)row_sine(l, y);
-    for (int x = 0; x < l->width; x++, value++) {
-      *value = mean_of(map->pixels[value - l->values]);
-      *peak = float_max(*peak, *value);
-      of_row += (double)*value;
+  for (int y = 0; y < map->height; y++) {
+    double of_row = 0, sine = (double)row_sine(y, map->height);
+    for (int x = 0; x < map->width; x++, pixel++) {
+      float value = mean_of(*pixel);
+      *peak = float_max(*peak, value);
+      of_row += (double)value;
     }
     sum += of_row * sine;
-    weight += l->width * sine;
+    weight += map->width * sine;
   }
   return (float)(sum / weight);
 }
 
-// Makes the values what they are; gives the radiance that 1 stands for, 0 where
-// nothing is above the mean.
-static float measure(light_env *l, const image *map, arena *mem) {
-  l->values = ARENA_NEW(mem, float, (size_t)l->width *(size_t)l->height);
-  float peak, mean = fill_values(l, map, &peak), unit = 1 / (peak - mean);
+// Finds the mean and the scale of each row; gives the radiance that 1 stands
+// for, 0 where nothing is above the mean.
+static float measure(light_env *l, arena *mem) {
+  const int rows = l->map.height;
+  float peak;
+  l->mean = mean_and_peak(&l->map, &peak);
+  l->scale = ARENA_NEW(mem, float, (size_t)rows);
+  float unit = 1 / (peak - l->mean);
   if (!(isfinite(unit) && unit > 0)) return 0;
-  float *value = l->values;
-  for (int y = 0; y < l->height; y++) {
-    float scale = unit * row_sine(l, y);
-    for (int x = 0; x < l->width; x++, value++)
-      *value = float_max(*value - mean, 0) * scale;
-  }
-  return peak - mean;
+  for (int y = 0; y < rows; y++)
+    l->scale[y] = unit * row_sine(y, rows);
+  return peak - l->mean;
 }
 
 // Work of the pool: the columns of one row of cells.
@@ -101,10 +121,11 @@ static void weigh_row(void *context, size_t item, int worker) {
   (void)worker;
   row_job *job = context;
   light_env *l = job->light;
-  int j = (int)item, w = l->width;
+  int j = (int)item, w = l->map.width;
   float *values = job->values + item * (size_t)w;
   for (int i = 0; i < w; i++) {
-    cell c = cell_at(l, i, j);
+    corners at = corners_of(l, i, j);
+    cell c = cell_of(l, &at);
     values[i] = cell_mean(&c);
   }
   double sum;
@@ -113,7 +134,7 @@ static void weigh_row(void *context, size_t item, int worker) {
 }
 
 static void weigh(light_env *l, float unit, arena *mem, pool *threads) {
-  size_t rows = (size_t)l->height + 1, width = (size_t)l->width;
+  size_t rows = (size_t)l->map.height + 1, width = (size_t)l->map.width;
   arena scratch = {0};
   row_job job = {l, ARENA_NEW(&scratch, float, rows *width),
                  ARENA_NEW(&scratch, float, rows)};
@@ -124,7 +145,7 @@ static void weigh(light_env *l, float unit, arena *mem, pool *threads) {
   pool_run(threads, rows, weigh_row, &job);
   double sum;
   pick_weigh(&l->rows, job.sums, &sum);
-  double cells = (double)width * (double)l->height;
+  double cells = (double)width * (double)l->map.height;
   double mean = sum / cells * (double)unit;  // of radiance times sine
   l->irradiance = (float)(mean * (double)(PI * PI / 2)) * l->env->scale;
   arena_free(&scratch);
@@ -135,10 +156,8 @@ void light_env_build(light_env *out, const env *e, arena *mem, pool *threads) {
   if (e->kind != ENV_SKY && e->kind != ENV_MAP) return;
   if (e->kind == ENV_MAP && e->map.pixels == NULL) return;
   if (!(e->scale > 0)) return;
-  image map = e->kind == ENV_SKY ? sky_map(e, mem) : e->map;
-  out->width = map.width;
-  out->height = map.height;
-  float unit = measure(out, &map, mem);
+  out->map = e->kind == ENV_SKY ? sky_map(e, mem) : e->map;
+  float unit = measure(out, mem);
   if (unit > 0) weigh(out, unit, mem, threads);
 }
 
@@ -153,7 +172,7 @@ static float cell_pdf(const light_env *l, const cell *c, vec2 at, float share) {
   float top = c->a00 * (1 - at.x) + c->a01 * at.x;
   float low = c->a10 * (1 - at.x) + c->a11 * at.x;
   float value = top * (1 - at.y) + low * at.y, mean = cell_mean(c);
-  float cells = (float)l->width * (float)l->height;
+  float cells = (float)l->map.width * (float)l->map.height;
   return mean > 0 ? share * cells * value / mean : 0;
 }
 
@@ -164,42 +183,121 @@ static float per_steradian(float pdf, float v) {
   return sine > 0 ? pdf / (2 * PI * PI * sine) : 0;
 }
 
-bool light_env_sample(const light_env *l, float u1, float u2, vec3 *wi,
-                      float *pdf) {
-  if (!(l->irradiance > 0)) return false;
-  float share_y, share_x;
-  int j = (int)pick_at(&l->rows, &u2, &share_y);
-  int i = (int)pick_at(&l->columns[j], &u1, &share_x);
-  cell c = cell_at(l, i, j);
-  if (!(cell_mean(&c) > 0)) return false;
+// A cell on its way to be found: what is left of the numbers that found its row
+// and its column, and the probability of what is found.
+typedef struct spot {
+  int i, j;
+  vec2 u;
+  float share;
+} spot;
+
+static spot find_row(const light_env *l, vec2 u) {
+  spot s = {.u = u};
+  s.j = (int)pick_at(&l->rows, &s.u.y, &s.share);
+  pick_expect(&l->columns[s.j], u.x);
+  return s;
+}
+
+static void find_column(const light_env *l, spot *s) {
+  float share;
+  s->i = (int)pick_at(&l->columns[s->j], &s->u.x, &share);
+  s->share *= share;
+  corners at = corners_of(l, s->i, s->j);
+  __builtin_prefetch(at.above + at.left);
+  __builtin_prefetch(at.below + at.left);
+}
+
+// Radiance at a place of a cell, by what it is bilinear in.
+static vec3 radiance_at(const light_env *l, const corners *c, vec2 at,
+                        vec3 wi) {
+  if (l->env->kind != ENV_MAP) return env_radiance(l->env, wi);
+  vec3 above = vec3_lerp(c->above[c->left], c->above[c->right], at.x);
+  vec3 below = vec3_lerp(c->below[c->left], c->below[c->right], at.x);
+  return vec3_scale(vec3_lerp(above, below, at.y), l->env->scale);
+}
+
+static env_sample sample_cell(const light_env *l, const spot *s) {
+  env_sample none = {.pdf = 0};
+  corners around = corners_of(l, s->i, s->j);
+  cell c = cell_of(l, &around);
+  if (!(cell_mean(&c) > 0)) return none;
   vec2 at;
-  at.y = sample_slope(c.a00 + c.a01, c.a10 + c.a11, u2);
+  at.y = sample_slope(c.a00 + c.a01, c.a10 + c.a11, s->u.y);
   at.x = sample_slope(c.a00 * (1 - at.y) + c.a10 * at.y,
-                      c.a01 * (1 - at.y) + c.a11 * at.y, u1);
-  float top = j > 0 ? (float)j - 0.5f : 0, high = cell_height(l, j);
-  float u = ((float)i - 0.5f + at.x) / (float)l->width - l->env->rotate;
-  float v = (top + high * at.y) / (float)l->height;
-  *wi = env_direction((vec2){u - floorf(u), v});
-  float of_square = cell_pdf(l, &c, at, share_x * share_y / high);
-  *pdf = per_steradian(of_square, v);
-  return *pdf > 0 && isfinite(*pdf);
+                      c.a01 * (1 - at.y) + c.a11 * at.y, s->u.x);
+  float top = s->j > 0 ? (float)s->j - 0.5f : 0, high = cell_height(l, s->j);
+  float u = ((float)s->i - 0.5f + at.x) / (float)l->map.width - l->env->rotate;
+  float v = (top + high * at.y) / (float)l->map.height;
+  env_sample out = {.wi = env_direction((vec2){u - floorf(u), v})};
+  out.pdf = per_steradian(cell_pdf(l, &c, at, s->share / high), v);
+  if (!(out.pdf > 0 && isfinite(out.pdf))) return none;
+  out.radiance = radiance_at(l, &around, at, out.wi);
+  return out;
+}
+
+// So many are waited for together.
+enum { TOGETHER = 64 };
+
+void light_env_samples(const light_env *l, const vec2 *u, size_t n,
+                       env_sample *out) {
+  spot spots[TOGETHER];
+  if (!(l->irradiance > 0)) memset(out, 0, n * sizeof *out);
+  if (!(l->irradiance > 0)) return;
+  for (size_t i = 0; i < n; i += TOGETHER) {
+    size_t some = n - i < TOGETHER ? n - i : TOGETHER;
+    for (size_t k = 0; k < some; k++)
+      spots[k] = find_row(l, u[i + k]);
+    for (size_t k = 0; k < some; k++)
+      pick_search(&l->columns[spots[k].j], u[i + k].x);
+    for (size_t k = 0; k < some; k++)
+      find_column(l, &spots[k]);
+    for (size_t k = 0; k < some; k++)
+      out[i + k] = sample_cell(l, &spots[k]);
+  }
+}
+
+env_sample light_env_sample(const light_env *l, vec2 u) {
+  env_sample one;
+  light_env_samples(l, &u, 1, &one);
+  return one;
+}
+
+// The cell in which (u, v) lies, and where.
+typedef struct inside {
+  int i, j;
+  vec2 at;
+} inside;
+
+static inside inside_of(const light_env *l, vec2 uv) {
+  const image *m = &l->map;
+  float u = uv.x + l->env->rotate;
+  float x = (u - floorf(u)) * (float)m->width + 0.5f;
+  float y = uv.y * (float)m->height + 0.5f;
+  inside s = {.i = (int)x, .j = clamped((int)y, m->height + 1)};
+  s.at = (vec2){x - (float)s.i, y - (float)s.j};
+  if (s.i >= m->width) s.i = 0;
+  if (s.j == 0) s.at.y = 2 * s.at.y - 1;
+  if (s.j == m->height) s.at.y = float_min(2 * s.at.y, 1);
+  return s;
+}
+
+void light_env_expect(const light_env *l, vec2 uv) {
+  if (!(l->irradiance > 0)) return;
+  inside s = inside_of(l, uv);
+  __builtin_prefetch(&l->columns[s.j].upto[s.i]);
+}
+
+float light_env_density(const light_env *l, vec2 uv) {
+  if (!(l->irradiance > 0)) return 0;
+  inside s = inside_of(l, uv);
+  corners around = corners_of(l, s.i, s.j);
+  cell c = cell_of(l, &around);
+  float share = pick_share(&l->columns[s.j], (uint32_t)s.i) *
+                pick_share(&l->rows, (uint32_t)s.j) / cell_height(l, s.j);
+  float pdf = per_steradian(cell_pdf(l, &c, s.at, share), uv.y);
+  return isfinite(pdf) ? pdf : 0;
 }
 
 float light_env_pdf(const light_env *l, vec3 wi) {
-  if (!(l->irradiance > 0) || !vec3_finite(wi)) return 0;
-  vec2 uv = env_uv(wi);
-  float u = uv.x + l->env->rotate;
-  float x = (u - floorf(u)) * (float)l->width + 0.5f;
-  float y = uv.y * (float)l->height + 0.5f;
-  int i = (int)x, j = clamped((int)y, l->height + 1);
-  vec2 at = {x - (float)i, y - (float)j};
-  if (i >= l->width) i = 0;
-  float high = cell_height(l, j);
-  if (j == 0) at.y = 2 * at.y - 1;
-  if (j == l->height) at.y = float_min(2 * at.y, 1);
-  cell c = cell_at(l, i, j);
-  float share = pick_share(&l->columns[j], (uint32_t)i) *
-                pick_share(&l->rows, (uint32_t)j) / high;
-  float pdf = per_steradian(cell_pdf(l, &c, at, share), uv.y);
-  return isfinite(pdf) ? pdf : 0;
+  return vec3_finite(wi) ? light_env_density(l, env_uv(wi)) : 0;
 }

@@ -13,22 +13,36 @@
 // environment has no table.  Source: Karlik et al. 2019, "MIS Compensation".
 typedef struct light_env {
   const env *env;
-  int width, height;  // texels of the map, or of the built-in sky as one
-  float *values;      // by texel: what is above the mean, 1 at most, times the
-                      // sine of its angle to +Y
-  pick rows;      // of cells: height + 1, the first and the last half as high
-  pick *columns;  // width cells of each row
+  image map;      // env's, or the built-in sky as one
+  float mean;     // of its radiance
+  float *scale;   // by row: of what is above the mean, so that it is 1 at most,
+                  // times the sine of the angle to +Y
+  pick rows;      // of cells: one more, the first and the last half as high
+  pick *columns;  // as many cells as texels, of each row
   float irradiance;  // what the table stands for, on a plane, roughly; 0: none
 } light_env;
 
 void light_env_build(light_env *out, const env *e, arena *mem, pool *threads);
 
-// A direction by two uniform numbers and its density per steradian; false when
-// there is none.
-bool light_env_sample(const light_env *l, float u1, float u2, vec3 *wi,
-                      float *pdf);
+// A unit direction, the radiance from there and the density per steradian with
+// which it comes; 0 when there is none.
+typedef struct env_sample {
+  vec3 wi, radiance;
+  float pdf;
+} env_sample;
 
-// The density of light_env_sample at unit wi.
+// A sample for two uniform numbers, of columns and rows.
+env_sample light_env_sample(const light_env *l, vec2 u);
+
+// Samples for n pairs of numbers: the same as one by one, but tables are waited
+// for together.
+void light_env_samples(const light_env *l, const vec2 *u, size_t n,
+                       env_sample *out);
+
+// The density of light_env_sample at unit wi; and in two steps, where the first
+// lets tables come nearer: uv is env_uv(wi).
 float light_env_pdf(const light_env *l, vec3 wi);
+void light_env_expect(const light_env *l, vec2 uv);
+float light_env_density(const light_env *l, vec2 uv);
 
 #endif

@@ -14,10 +14,14 @@
 static bool look_alone(const wave *w, const stop *s, const bsdf *b,
                        light_sample *l, meeting *m) {
   const vertex *v = s->at;
-  vec3 u = {s->u[USE_PICK], s->u[USE_LIGHT], s->u[USE_LIGHT + 1]};
-  bool found = light_sample_at(w->by->lights, v->at.p, v->n, u, l);
+  size_t i = (size_t)(v - w->met->at);
+  light_question q = wave_question(s);
+  if (w->together && w->met->asked[i])
+    *l = w->met->light[i];
+  else
+    light_sample_at(w->by->lights, q.p, q.n, q.u, l);
   vec3 wi = vertex_local(v, l->wi), wo = vertex_local(v, v->wo);
-  if (!found || !(wi.z > 0)) return false;
+  if (!(l->pdf > 0 && wi.z > 0)) return false;
   m->cosine = wi.z;
   m->f = l->delta ? bsdf_eval_point(b, wo, wi) : bsdf_eval(b, wo, wi);
   m->pdf = bsdf_pdf(b, wo, wi);
@@ -260,6 +264,7 @@ static bool step_one(wave *w, size_t i, ray *r, uint32_t *left) {
 // Shade n of the paths whose rays have met a surface.
 static void step_some(wave *w, size_t n) {
   wave_vertices(w, n);
+  if (w->together) wave_ask(w, n);
   for (size_t i = 0; i < n; i++) {
     if (!step_one(w, i, &w->rays[w->next], &w->left[w->next])) continue;
     w->alive[w->next++] = w->met->which[i];
@@ -273,10 +278,10 @@ static void step_all(wave *w) {
                       w->steps > 0 ? w->left : NULL, w->hits, w->count);
   w->stats->rays += w->count;
   w->next = w->shadow_count = 0;
-  size_t n = 0;
+  size_t n = 0, lost = 0;
   for (size_t i = 0; i < w->count; i++) {
     if (w->hits[i].triangle == HIT_NONE) {
-      wave_meet_sky(w, &w->paths[w->alive[i]], &w->rays[i]);
+      lost = wave_miss(w, lost, w->alive[i], &w->rays[i]);
       continue;
     }
     vertex_expect(w->by->world->scene, w->hits[i].triangle);
@@ -289,6 +294,7 @@ static void step_all(wave *w) {
     n = 0;
   }
   step_some(w, n);
+  wave_meet_sky(w, lost);
   w->count = w->next;
   w->steps++;
 }
@@ -366,6 +372,7 @@ static void path_radiance(const void *self, const path_start *starts, size_t n,
   w->sheets = by->world->thorough || scene_has_sheets(by->world->scene);
   w->lights = by->world->thorough || light_set_any(by->lights);
   w->lit = w->lights && by->questions <= 1 && path_ready_lights(by->lights);
+  w->together = by->questions <= 1 && by->lights->env.irradiance > 0;
   const env *sky = &by->world->scene->env;
   w->even = sky->kind == ENV_CONSTANT && !(by->lights->env.irradiance > 0);
   w->sky = env_radiance(sky, (vec3){0, 1, 0});

@@ -14,6 +14,7 @@ wave *wave_room(const path_tracer *by, arena *mem) {
   w->shadows = ARENA_NEW(mem, shadow, m);
   w->blocked = ARENA_NEW(mem, bool, m);
   w->met = ARENA_NEW(mem, met, 1);
+  w->missed = ARENA_NEW(mem, missed, 1);
   w->plain = path_ready_plain(by->world->scene, mem);
   if (by->aim != NULL) w->aims = path_aims_room(mem);
   if (by->film != NULL) w->shares = ARENA_NEW(mem, path_shares, 1);
@@ -51,19 +52,42 @@ static void add(path *p, float weight, vec3 radiance) {
   p->sum = vec3_mad(p->sum, weight, vec3_mul(p->throughput, radiance));
 }
 
-void wave_meet_sky(const wave *w, path *p, const ray *r) {
+// What path p finds of the sky.
+static void meet_sky(const wave *w, path *p, const env_place *at) {
+  const env *sky = &w->by->world->scene->env;
   float weight = p->pdf > 0 ? 1 : path_trail_weight(&p->trail, w->steps);
   if (w->even) {
-    if (vec3_finite(r->d)) add(p, weight, w->sky);
+    if (vec3_finite(at->d)) add(p, weight, w->sky);
     return;
   }
-  vec3 d = vec3_unit(r->d);
-  vec3 sky = env_radiance(&w->by->world->scene->env, d);
-  if (!(vec3_peak(sky) > 0)) return;
-  if (p->pdf > 0)
+  vec3 radiance = env_radiance_at(sky, at);
+  if (!(vec3_peak(radiance) > 0)) return;
+  if (p->pdf > 0 && w->lights) {
+    vec2 uv = sky->kind == ENV_MAP ? at->uv : env_uv(at->d);
     weight = wave_weight(p->pdf,
-                         light_pdf_env(w->by->lights, p->from, p->from_n, d));
-  add(p, weight, sky);
+                         light_pdf_env(w->by->lights, p->from, p->from_n, uv));
+  }
+  add(p, weight, radiance);
+}
+
+size_t wave_miss(const wave *w, size_t n, uint32_t which, const ray *r) {
+  missed *m = w->missed;
+  m->which[n] = which;
+  if (w->even) {
+    m->at[n].d = r->d;
+  } else {
+    m->at[n] = env_expect(&w->by->world->scene->env, vec3_unit(r->d));
+    if (w->lights) light_env_expect(&w->by->lights->env, m->at[n].uv);
+  }
+  if (n + 1 < MET) return n + 1;
+  wave_meet_sky(w, MET);
+  return 0;
+}
+
+void wave_meet_sky(const wave *w, size_t n) {
+  const missed *m = w->missed;
+  for (size_t i = 0; i < n; i++)
+    meet_sky(w, &w->paths[m->which[i]], &m->at[i]);
 }
 
 void wave_meet_glow(const wave *w, path *p, const vertex *v) {
@@ -96,6 +120,25 @@ void wave_vertices(const wave *w, size_t n) {
                    .at = m->at,
                    .ready = m->ready};
   (by->ready != NULL ? by->ready : path_ready_alone)(&job, n);
+}
+
+void wave_ask(const wave *w, size_t n) {
+  met *m = w->met;
+  light_question q[MET];
+  light_sample found[MET];
+  size_t count = 0, which[MET];
+  for (size_t i = 0; i < n; i++) {
+    const path_ready *v = &m->ready[i / LANES];
+    stop s = path_ready_stop(&m->at[i], v, (int)(i % LANES));
+    m->asked[i] = s.ready != NULL && !v->plain[i % LANES];
+    if (!m->asked[i]) continue;
+    q[count] = wave_question(&s);
+    which[count++] = i;
+  }
+  if (count == 0) return;
+  light_samples_at(w->by->lights, q, count, found);
+  for (size_t i = 0; i < count; i++)
+    m->light[which[i]] = found[i];
 }
 
 vec3 wave_take(wave *w, size_t i) {

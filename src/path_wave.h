@@ -27,7 +27,15 @@ typedef struct met {
   sampler numbers[MET];
   vertex at[MET];
   path_ready ready[MET / LANES];
+  bool asked[MET];  // whether light is what a light was asked for
+  light_sample light[MET];
 } met;
+
+// Paths whose rays have met nothing, and where these look.
+typedef struct missed {
+  uint32_t which[MET];
+  env_place at[MET];
+} missed;
 
 // A light sample on its way through the scene: what it brings if nothing is in
 // between, to which path; and for sheets, from where to where.
@@ -46,6 +54,7 @@ typedef struct wave {
   path_stats *stats;
   bool sheets, lights;  // whether there are any
   bool lit;             // whether ready knows of lights
+  bool together;        // whether lights are better asked by many at once
   bool even;            // a constant sky, for which no light is asked
   vec3 sky;
   const path_plain *plain;  // by material, or NULL
@@ -57,6 +66,7 @@ typedef struct wave {
   shadow *shadows;
   bool *blocked;
   met *met;
+  missed *missed;
   path_aims *aims;      // NULL: no ray is aimed
   path_shares *shares;  // NULL: nothing is shared
   size_t count, next, shadow_count;
@@ -74,12 +84,25 @@ wave *wave_room(const path_tracer *by, arena *mem);
 // Begin with n paths, those of pixel GROUP_NO_PIXEL left out.
 void wave_begin(wave *w, const path_start *starts, size_t n);
 
-// The sky, found by the ray of a path; a glowing surface.
-void wave_meet_sky(const wave *w, path *p, const ray *r);
+// The ray of path `which` meets nothing: what it finds of the sky waits in
+// w->missed, where n others are, for wave_meet_sky.  How many wait now.
+size_t wave_miss(const wave *w, size_t n, uint32_t which, const ray *r);
+
+// The sky, for the first n of w->missed; a glowing surface.
+void wave_meet_sky(const wave *w, size_t n);
 void wave_meet_glow(const wave *w, path *p, const vertex *v);
 
 // The vertices of the first n rays and hits of w->met.
 void wave_vertices(const wave *w, size_t n);
+
+// What a stop asks of the lights.
+static inline light_question wave_question(const stop *s) {
+  vec3 u = {s->u[USE_PICK], s->u[USE_LIGHT], s->u[USE_LIGHT + 1]};
+  return (light_question){s->at->at.p, s->at->n, u};
+}
+
+// Ask lights at once for those of them that are matt, but for plain ones.
+void wave_ask(const wave *w, size_t n);
 
 // What path number i has brought since it was last asked.
 vec3 wave_take(wave *w, size_t i);

@@ -46,6 +46,18 @@ void pick_weigh(pick *p, const float *weights, double *sum) {
   make_guide(p);
 }
 
+static uint32_t unit_of(float u) {
+  return (uint32_t)(u * (float)PICK_UNITS);
+}
+
+void pick_expect(const pick *p, float u) {
+  __builtin_prefetch(&p->guide[entry_of(p, unit_of(u))]);
+}
+
+void pick_search(const pick *p, float u) {
+  __builtin_prefetch(&p->upto[p->guide[entry_of(p, unit_of(u))] + 1]);
+}
+
 uint32_t pick_at(const pick *p, float *u, float *share) {
   float at = *u * (float)PICK_UNITS;
   uint32_t unit = (uint32_t)at, e = entry_of(p, unit);

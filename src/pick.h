@@ -29,6 +29,11 @@ void pick_weigh(pick *p, const float *weights, double *sum);
 // where in its share u was, again in [0, 1).
 uint32_t pick_at(const pick *p, float *u, float *share);
 
+// pick_at in three steps, each of which lets memory come nearer for the next:
+// pick_expect(p, u), pick_search(p, u), pick_at(p, &u, &share).
+void pick_expect(const pick *p, float u);
+void pick_search(const pick *p, float u);
+
 // The probability of number i.
 float pick_share(const pick *p, uint32_t i);
 

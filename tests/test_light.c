@@ -72,6 +72,33 @@ static int cell_of(vec3 wi) {
   return (y < CELLS_Y ? y : CELLS_Y - 1) * CELLS_X + (x < CELLS_X ? x : 0);
 }
 
+// Many who wait together are given what each would be given alone.
+static void many_samples_are_those_of_one(void **state) {
+  (void)state;
+  enum { MANY = 300 };  // in more rounds than one, and the last not full
+  arena mem = {0};
+  for (map_kind kind = 0; kind < MAP_KINDS; kind++) {
+    env e = env_of(kind, &mem);
+    light_env l;
+    light_env_build(&l, &e, &mem, NULL);
+    vec2 u[MANY];
+    env_sample all[MANY];
+    rng r = rng_of(6, (uint64_t)kind, 0);
+    for (int i = 0; i < MANY; i++)
+      u[i] = (vec2){rng_next(&r), rng_next(&r)};
+    light_env_samples(&l, u, MANY, all);
+    for (int i = 0; i < MANY; i++) {
+      env_sample one = light_env_sample(&l, u[i]);
+      assert_memory_equal(&one, &all[i], sizeof one);
+      if (!(one.pdf > 0)) continue;
+      vec3 seen = env_radiance(&e, one.wi);
+      float off = vec3_peak(vec3_abs(vec3_sub(one.radiance, seen)));
+      assert_true(kind == HOT || off < 1e-3f * vec3_peak(seen));
+    }
+  }
+  arena_free(&mem);
+}
+
 // The integral of the density over each cell of the sphere; their sum.
 static double integrate_env(const light_env *l, double *cells) {
   enum { FINE = 40 };
@@ -106,12 +133,12 @@ static void env_samples_follow_their_density(void **state) {
     double total = integrate_env(&l, want);
     rng r = rng_of(2, (uint64_t)kind, 0);
     for (long i = 0; i < n; i++) {
-      vec3 wi;
-      float u1 = rng_next(&r), u2 = rng_next(&r), pdf;
-      assert_true(light_env_sample(&l, u1, u2, &wi, &pdf));
-      double off = fabs((double)(light_env_pdf(&l, wi) / pdf) - 1);
+      float u1 = rng_next(&r), u2 = rng_next(&r);
+      env_sample s = light_env_sample(&l, (vec2){u1, u2});
+      assert_true(s.pdf > 0);
+      double off = fabs((double)(light_env_pdf(&l, s.wi) / s.pdf) - 1);
       worst = fmax(worst, off);
-      got[cell_of(wi)]++;
+      got[cell_of(s.wi)]++;
     }
     for (int i = 0; i < CELLS; i++)
       want[i] *= (double)n;
@@ -260,7 +287,7 @@ static double by_scattering(const world *w, const light_set *l, vec3 p,
     other = light_pdf_triangle(l, p, n, h.triangle, vec3_mad(p, h.t, wi));
   } else {
     radiance = env_radiance(&w->scene.env, wi).x;
-    other = light_pdf_env(l, p, n, wi);
+    other = light_pdf_env(l, p, n, env_uv(wi));
   }
   return (double)(radiance * PI * pdf / (pdf + other));
 }
@@ -516,9 +543,45 @@ static void nothing_is_ever_not_finite(void **state) {
         float pdf = light_pdf_triangle(&l, AT[i], TO[k], t, AT[(i + 1) % 9]);
         assert_true(pdf >= 0 && isfinite(pdf));
       }
-      float pdf = light_pdf_env(&l, AT[i], TO[k], (vec3){0, 1, 0});
+      float pdf = light_pdf_env(&l, AT[i], TO[k], (vec2){0, 0});
       assert_true(pdf >= 0 && isfinite(pdf));
     }
+  world_free(w);
+}
+
+// Those who ask all kinds of light together, and one by one.
+static void many_questions_are_those_of_one(void **state) {
+  (void)state;
+  enum { MANY = 150 };
+  world *w = world_new();
+  w->scene.env = env_of(NOISE, &w->mem);
+  add_ceiling(w, 3, 0.5f);
+  w->lights[0] = (light){LIGHT_DIR, {1, -1, 0}, {3, 3, 3}};
+  w->lights[1] = (light){LIGHT_POINT, {0, 0.5f, 0}, {1, 1, 1}};
+  world_ready(w, 2);
+  light_set l;
+  light_set_build(&l, &w->scene, true, true, &w->mem, NULL);
+  light_question q[MANY];
+  light_sample all[MANY];
+  rng r = rng_of(7, 0, 0);
+  for (int i = 0; i < MANY; i++) {
+    q[i].p = (vec3){rng_next(&r), rng_next(&r), rng_next(&r)};
+    q[i].n = (vec3){0, i % 2 ? 1 : -1, 0};
+    q[i].u = (vec3){rng_next(&r), rng_next(&r), rng_next(&r)};
+  }
+  light_samples_at(&l, q, MANY, all);
+  int kinds = 0;
+  for (int i = 0; i < MANY; i++) {
+    light_sample one;
+    bool found = light_sample_at(&l, q[i].p, q[i].n, q[i].u, &one);
+    assert_true(found == (all[i].pdf > 0) && one.pdf == all[i].pdf);
+    kinds |= !found ? 0 : one.delta ? 1 : one.has_end ? 2 : 4;
+    if (!found) continue;
+    assert_true(one.has_end == all[i].has_end && one.delta == all[i].delta);
+    assert_memory_equal(&one.wi, &all[i].wi, sizeof one.wi);
+    assert_memory_equal(&one.radiance, &all[i].radiance, sizeof one.wi);
+  }
+  assert_int_equal(kinds, 7);
   world_free(w);
 }
 
@@ -561,6 +624,7 @@ static void textures_shine(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(picks_are_exact),
+      cmocka_unit_test(many_samples_are_those_of_one),
       cmocka_unit_test(env_samples_follow_their_density),
       cmocka_unit_test(triangle_samples_follow_their_density),
       cmocka_unit_test(polygons_shine_as_lambert_says),
@@ -568,6 +632,7 @@ int main(void) {
       cmocka_unit_test(picks_follow_their_shares),
       cmocka_unit_test(all_of_many_lights_are_reached),
       cmocka_unit_test(nothing_is_ever_not_finite),
+      cmocka_unit_test(many_questions_are_those_of_one),
       cmocka_unit_test(textures_shine),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

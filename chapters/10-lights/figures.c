@@ -494,11 +494,10 @@ static void draw_sky(output *o) {
   for (uint32_t i = 0; i < 512; i++) {
     sampler s = sampler_of(SAMPLER_SOBOL, 1, 1, i);
     vec2 u = sampler_2(&s);
-    vec3 wi;
-    float pdf;
-    if (!light_env_sample(&l, u.x, u.y, &wi, &pdf)) continue;
-    near_sun += vec3_peak(env_radiance(&sky, wi)) > 1000;
-    vec2 uv = env_uv(wi);
+    env_sample to = light_env_sample(&l, u);
+    if (!(to.pdf > 0)) continue;
+    near_sun += vec3_peak(to.radiance) > 1000;
+    vec2 uv = env_uv(to.wi);
     draw_dot(&parts[2], uv.x * W, uv.y * H, 2, (vec3){1, 0.7f, 0.1f});
   }
   printf("%d of 512 directions to the sun\n", near_sun);

@@ -427,6 +427,44 @@ static void draw_patches(output *o) {
   publish(o->folder, "patches", im);
 }
 
+// Height over the plane of the triangle from 190 to 290 of a tilted plane
+// through its nearer edge, with a slope of 1/4 for the eye.
+static float tilted(float x, int edge) {
+  return edge == 0 ? (190 - x) / 4 : (x - 290) / 4;
+}
+
+static void thick_line(image im, vec2 a, vec2 b, vec3 c) {
+  for (int k = -1; k <= 1; k++)
+    draw_thin_line(im, (vec2){a.x, a.y + (float)k}, (vec2){b.x, b.y + (float)k},
+                   c);
+}
+
+// A triangle from the side, and the planes below which a triangle may be
+// passed over by a ray that climbs away from it.
+static void draw_valley(output *o) {
+  const float level = 130;
+  const vec3 grey = vec3_all(0.35f), blue = {0.02f, 0.15f, 0.6f};
+  image im = paper(&o->mem, 480, 190);
+  for (int i = 0; i < 480 * 190; i++) {
+    float x = (float)(i % 480), h = level - (float)(i / 480);
+    bool below = h <= 0 || h <= tilted(x, 0) || h <= tilted(x, 1);
+    if (below) im.pixels[i] = (vec3){0.8f, 0.87f, 0.95f};
+  }
+  draw_thin_line(im, (vec2){0, level}, (vec2){479, level}, grey);
+  for (int edge = 0; edge < 2; edge++)
+    draw_thin_line(im, (vec2){0, level - tilted(0, edge)},
+                   (vec2){479, level - tilted(479, edge)}, grey);
+  thick_line(im, (vec2){190, level}, (vec2){70, level - 18}, blue);
+  thick_line(im, (vec2){70, level - 18}, (vec2){10, level + 40}, blue);
+  thick_line(im, (vec2){290, level}, (vec2){380, level + 30}, blue);
+  thick_line(im, (vec2){380, level + 30}, (vec2){430, level - 75},
+             (vec3){0.75f, 0.04f, 0.02f});
+  thick_line(im, (vec2){190, level}, (vec2){290, level}, (vec3){0, 0, 0});
+  thick_line(im, (vec2){240, level}, (vec2){4, level - 65},
+             (vec3){0.85f, 0.4f, 0.02f});
+  publish(o->folder, "valley", im);
+}
+
 // ---- Visits ----
 
 // How many children a node has, in the mean.
@@ -520,6 +558,7 @@ int main(int argc, char **argv) {
   draw_leaks(&o);
   draw_waiting(&o);
   draw_patches(&o);
+  draw_valley(&o);
   print_visits(&o, &m, &b, &w);
   print_growth(&o);
   pool_free(o.threads);
