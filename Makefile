@@ -65,7 +65,7 @@ CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_spl
              ready_lane ready_kernel ready_base ready_avx2 ready_avx512 ready
 CHAPTER_13 := $(CHAPTER_12) plan_sight plan plan_word plan_use tree_cache
 CHAPTER_14 := $(CHAPTER_13) post view_state view_script view_paths view_window
-CHAPTER_15 := $(CHAPTER_14) glyph sketch plot two_means halves adaptive doubling
+CHAPTER_15 := $(CHAPTER_14) glyph sketch plot two_means halves jury adaptive doubling
 CHAPTER_16 := $(CHAPTER_15) bytes digest scene_digest part part_read part_set
 LIBRARY   := $(CHAPTER_16)
 CHAPTERS  := 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17

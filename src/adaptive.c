@@ -5,8 +5,6 @@
 
 #include "adaptive.h"
 
-#include "halves.h"
-
 // Samples of a pixel in the first round, two of each half.  Tiles are told
 // apart when all have an eighth of what they will need, or more.
 enum { PILOT = 4 };
@@ -210,9 +208,22 @@ static bool plan_even(adaptive *a, uint32_t n) {
   return true;
 }
 
+// Whether the pass was the last of its round: only then may the error be
+// enough, however rounds are cut into passes.
+static bool round_ends(const adaptive *a) {
+  for (size_t i = 0; i < a->tile_count; i++)
+    for (int k = 0; k < 2; k++)
+      if (a->tiles[i].pass[k] != a->tiles[i].round[k]) return false;
+  return true;
+}
+
 // The error that the picture does not exceed in five cases of six.
 static double look(adaptive *a, pool *threads) {
-  if (!a->known) a->is = halves_error(&a->halves, threads);
+  bool judged = a->set.jury != NULL && round_ends(a);
+  if (!a->known && judged)
+    a->is = jury_error(a->set.jury, &a->halves, a->set.error, threads);
+  else if (!a->known)
+    a->is = halves_error(&a->halves, NULL, threads);
   a->known = true;
   return a->is.error * (1 + SURE * a->is.doubt);
 }
@@ -240,12 +251,6 @@ static double next_goal(adaptive *a, double taken, double most) {
   return fmin(goal, most);
 }
 
-// Whether the error is surely what was asked for.
-static bool good_enough(adaptive *a) {
-  bool known = a->set.error > 0 && a->tiles[0].taken[0] > 1;
-  return known && look(a, NULL) <= a->set.error;
-}
-
 // Begin the next round; false when the picture is good enough, or has all the
 // samples that it may have.
 static bool next_round(adaptive *a, const render_budget *b) {
@@ -253,7 +258,8 @@ static bool next_round(adaptive *a, const render_budget *b) {
   double most = fmin(taken + b->left, a->set.most * all_pixels(a));
   if (!(taken > 0))
     return plan_even(a, a->set.most < 2 ? 1 : a->set.most < PILOT ? 2 : PILOT);
-  if (good_enough(a)) return false;
+  bool known = a->set.error > 0 && a->tiles[0].taken[0] > 1;
+  if (known && look(a, NULL) <= a->set.error) return false;
   if (!a->asked && taken <= PILOT_SHARE * samples_needed(a, taken, most))
     return plan_even(a, 2 * a->tiles[0].taken[0]);
   for (size_t i = 0; i < a->tile_count && !a->asked; i++)

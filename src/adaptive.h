@@ -6,6 +6,7 @@
 
 #include "arena.h"
 #include "halves.h"
+#include "jury.h"
 #include "render_guide.h"
 
 typedef struct adaptive adaptive;
@@ -14,6 +15,7 @@ typedef struct adaptive_settings {
   int width, height;  // of the window
   double error;       // enough; 0: never
   double most;        // samples a pixel, on average
+  jury *jury;         // asked before the error is enough; NULL: nobody is
 } adaptive_settings;
 
 // The samples of its pixels are to come from a halves_integrator.  A tile's

@@ -204,6 +204,20 @@ static void choose_integrator(render_job *j) {
   j->settings.by = &j->by;
 }
 
+// A jury (chapter 15).  It asks those who walk for the picture, but alone,
+// where the picture's pixels share what they find: its pixels have no
+// neighbours.
+static void choose_jury(render_job *j) {
+  const render_settings *s = &j->settings;
+  j->jury = (jury){&j->by, &j->shot.view, s->width, s->height, 0, 0, 0, 0, 0};
+  if (s->x1 > 0) j->jury.x0 = s->x0, j->jury.y0 = s->y0;
+  if (j->paths.film == NULL) return;
+  j->alone = j->paths;
+  j->alone.film = NULL;
+  j->once = path_integrator(&j->alone);
+  j->jury.by = &j->once;
+}
+
 // Who watches the error.  Where it decides when to stop, samples go where they
 // help and all pixels have two halves; else it is only looked at, if somebody
 // will hear of it.
@@ -213,7 +227,10 @@ static void choose_guide(render_job *j) {
   bool crop = s->x1 > 0;
   int w = crop ? s->x1 - s->x0 : s->width, h = crop ? s->y1 - s->y0 : s->height;
   if (s->error > 0 || s->deadline > 0) {
-    adaptive_settings a = {w, h, s->error, s->spp};
+    // Not where time decides: nobody has said when to stop asking.
+    bool judged = !(s->deadline > 0);
+    adaptive_settings a = {w, h, s->error, s->spp, judged ? &j->jury : NULL};
+    choose_jury(j);
     j->keep.adaptive = adaptive_new(&a, sh->mem);
     j->guide = adaptive_guide(j->keep.adaptive);
     j->halves = (halves_walk){&j->by, (uint64_t)s->width * (uint64_t)s->height};

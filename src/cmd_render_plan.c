@@ -58,6 +58,11 @@ void render_plan_note_paths(render_job *j) {
             (uint64_t)(j->world.max_depth - j->world.lamps_only), -1, 0);
   plan_note(p, PLAN_SQUARES, r->squares, -1, 0);
   plan_note(p, PLAN_ESTIMATE, j->settings.guide != NULL, -1, 0);
+  if (j->jury.pixels > 0)
+    p->line[PLAN_ESTIMATE].why =
+        arena_format(j->shot.mem, "a jury: %llu pixels by %llu samples more",
+                     (unsigned long long)j->jury.pixels,
+                     (unsigned long long)j->jury.samples);
   cmd_forced_tables(p, &j->shot);
 }
 

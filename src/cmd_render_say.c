@@ -57,10 +57,20 @@ static void json_seconds(json *j, const render_job *job) {
   json_close(j, '{');
 }
 
+// What was traced for the error alone.
+static void json_jury(json *j, const jury *of) {
+  json_open(j, "jury", '{');
+  json_count(j, "pixels", of->pixels);
+  json_count(j, "samples", of->samples);
+  json_count(j, "rays", of->rays);
+  json_close(j, '{');
+}
+
 // What only the path engine has to tell.
 static void json_path(json *j, const render_job *job) {
   const render_result *r = &job->result;
   json_number(j, "error", r->error > 0 ? r->error : (double)NAN);
+  if (job->jury.by != NULL) json_jury(j, &job->jury);
   json_count(j, "seed", job->settings.seed);
   json_flag(j, "stopped", r->stopped);
   cmd_keep_json(j, &job->keep);

@@ -9,7 +9,7 @@
 #include "cmd_shot.h"
 #include "cmd_tree.h"
 
-#include "halves.h"
+#include "jury.h"
 #include "path.h"
 #include "progress.h"
 
@@ -34,6 +34,9 @@ typedef struct render_job {
   integrator by, dark;
   integrator twice;  // by, for both halves
   halves_walk halves;
+  jury jury;  // of their error, which walks
+  path_tracer alone;
+  integrator once;  // by that, or as they do
   render_guide guide;
   render_settings settings;  // and how
   render_result result;

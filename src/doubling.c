@@ -82,10 +82,11 @@ static double rate_of(double left, int k) {
 
 static double doubling_error(void *self, pool *threads) {
   const doubling *d = self;
-  two_means t = {d->all.width, d->all.height, d, doubling_pixel};
-  two_means_sums s = two_means_measure(&t, threads);
   uint32_t n = d->all.count[0], m = n > 0 ? power_below(n) : 0;
-  if (!(s.other > 0) || m < 2) return 0;
+  if (m < 2) return 0;
+  two_means t = {d->all.width, d->all.height, d, doubling_pixel};
+  two_means_sums s = two_means_measure(&t, NULL, threads);
+  if (!(s.other > 0)) return 0;
   int k = 0;
   while (1u << (k + 1) <= m)
     k++;

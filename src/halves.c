@@ -100,9 +100,9 @@ static bool halves_pixel(const void *self, size_t i, two_means_pixel *out) {
 
 // The root's relative error is half of that of its square; and what is printed
 // misses what is by 4 / 3 as much variance as its own.
-halves_estimate halves_error(const halves *h, pool *threads) {
+halves_estimate halves_error(const halves *h, double *terms, pool *threads) {
   two_means t = {h->half[0].width, h->half[0].height, h, halves_pixel};
-  two_means_sums s = two_means_measure(&t, threads);
+  two_means_sums s = two_means_measure(&t, terms, threads);
   if (!(s.square > 0)) return (halves_estimate){0, 0};
   return (halves_estimate){sqrt(s.square), s.doubt / s.square / sqrt(3)};
 }

@@ -34,11 +34,12 @@ vec3 halves_variance(const halves *h, size_t i);
 void halves_means(const halves *h, size_t i, int channel, double out[2]);
 
 // The relative error of the picture, and how well that is known: its standard
-// error, as a share of it.  Both 0 where no pixel has both means.
+// error, as a share of it.  Both 0 where no pixel has both means.  terms may be
+// NULL, or gets what each pixel has in the sum of squared errors.
 typedef struct halves_estimate {
   double error, doubt;
 } halves_estimate;
 
-halves_estimate halves_error(const halves *h, pool *threads);
+halves_estimate halves_error(const halves *h, double *terms, pool *threads);
 
 #endif

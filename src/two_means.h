@@ -30,7 +30,9 @@ typedef struct two_means_sums {
   double doubt;   // the standard error of square
 } two_means_sums;
 
-// Both 0 when no pixel has two means.
-two_means_sums two_means_measure(const two_means *t, pool *threads);
+// All 0 when no pixel has two means.  terms may be NULL, or gets what each
+// pixel adds to the sum behind `square`, row by row.
+two_means_sums two_means_measure(const two_means *t, double *terms,
+                                 pool *threads);
 
 #endif

@@ -166,7 +166,7 @@ rm -f .k.part.*
 
 # Three kills in a row, of a picture whose samples go where they help.
 adaptive() { "$facet" render a.scene --engine path -q --error 0.008 --aov samples "$@"; }
-adaptive -o one.pfm
+adaptive --json -o one.pfm >one.json
 for moment in 0.3 0.5 0.7; do
   "$facet" render a.scene --engine path -q --error 0.008 --checkpoint h.part --every 0.02 --resume \
     --aov samples -o e.pfm &
@@ -174,9 +174,13 @@ for moment in 0.3 0.5 0.7; do
   kill -9 $! 2>/dev/null
   wait $! 2>/dev/null
 done
-adaptive --checkpoint h.part --resume -o e.pfm
+adaptive --checkpoint h.part --resume --json -o e.pfm >e.json
 ok "--error, three times killed: the same bytes" cmp e.pfm one.pfm
 ok "and the same samples everywhere" cmp e.samples.pfm one.samples.pfm
+ok "and told the same of the error, by a jury that was not kept" python3 -c '
+import json
+a, b = json.load(open("one.json")), json.load(open("e.json"))
+assert a["error"] == b["error"] and a["jury"]["samples"] >= b["jury"]["samples"] > 0, (a["error"], a["jury"], b["error"], b["jury"])'
 
 # More samples.
 render --spp 40 -o one.png --json >one.json

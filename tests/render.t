@@ -153,9 +153,12 @@ j = json.load(sys.stdin)
 assert 0 < j[\"error\"] <= 0.05 and j[\"spp\"] >= 4, j'"
 
 for threads in 1 2 7; do
-  "$facet" render -q $path a.obj -r 40x24 --error 0.005 -j $threads --aov samples -o e$threads.pfm
+  "$facet" render -q $path a.obj -r 40x24 --error 0.005 -j $threads --aov samples -o e$threads.pfm \
+    --json | grep -o '"error": [^}]*}' >e$threads.told
 done
 ok "--error: the same bytes for any threads" sh -c "cmp e1.pfm e2.pfm && cmp e1.pfm e7.pfm"
+ok "and told the same of the error and its jury" sh -c "
+  grep -q jury e1.told && cmp e1.told e2.told && cmp e1.told e7.told"
 "$facet" render -q $path a.obj -r 40x24 --error 0.005 --json -o e1.pfm >e.json
 ok "samples go where they are needed, and are counted" python3 - <<'E'
 import array, json

@@ -81,7 +81,7 @@ static image picture_of(const render_guide *g, arena *mem) {
 }
 
 static adaptive_settings settings_of(double goal, double most) {
-  return (adaptive_settings){WIDTH, HEIGHT, goal, most};
+  return (adaptive_settings){WIDTH, HEIGHT, goal, most, NULL};
 }
 
 // Both samplers, each to two errors: the true error lies within 10 % of the

@@ -105,7 +105,8 @@ static void draw_estimates(output *o) {
     x[k] = n;
     y[0][k] = film_error(&f) / whole;
     y[1][k] = d.error(d.self, NULL) / whole;
-    y[2][k] = halves_error(&h, NULL).error / edge_error(mean_of_halves, &h);
+    y[2][k] =
+        halves_error(&h, NULL, NULL).error / edge_error(mean_of_halves, &h);
     printf("%4u samples: variance %.3f, doubling %.3f, halves %.3f of the true "
            "error\n",
            n, y[0][k], y[1][k], y[2][k]);
@@ -207,7 +208,7 @@ static void garden_ready(output *o, garden *g) {
   studio_open(&g->all, "scenes/garden.scene", &o->mem, o->threads);
   g->halves = (halves_walk){&g->all.by, GARDEN_WIDTH * GARDEN_HEIGHT};
   g->twice = halves_integrator(&g->halves);
-  adaptive_settings a = {GARDEN_WIDTH, GARDEN_HEIGHT, 0.08, 1e6};
+  adaptive_settings a = {GARDEN_WIDTH, GARDEN_HEIGHT, 0.08, 1e6, NULL};
   g->guide = adaptive_guide(adaptive_new(&a, &o->mem));
   g->settings = (render_settings){.width = GARDEN_WIDTH,
                                   .height = GARDEN_HEIGHT,
