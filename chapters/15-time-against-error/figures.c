@@ -196,8 +196,11 @@ static void draw_bias(output *o) {
 // Everything that tracing the garden in halves takes.
 typedef struct garden {
   studio all;
+  camera_view view;
   integrator twice;
   halves_walk halves;
+  jury jury;
+  adaptive *samples;
   render_guide guide;
   render_settings settings;
 } garden;
@@ -208,8 +211,12 @@ static void garden_ready(output *o, garden *g) {
   studio_open(&g->all, "scenes/garden.scene", &o->mem, o->threads);
   g->halves = (halves_walk){&g->all.by, GARDEN_WIDTH * GARDEN_HEIGHT};
   g->twice = halves_integrator(&g->halves);
-  adaptive_settings a = {GARDEN_WIDTH, GARDEN_HEIGHT, 0.08, 1e6, NULL};
-  g->guide = adaptive_guide(adaptive_new(&a, &o->mem));
+  g->view = view_by(&g->all.scene.cameras[0], GARDEN_WIDTH, GARDEN_HEIGHT);
+  g->jury = (jury){.by = &g->all.by, .view = &g->view};
+  g->jury.width = GARDEN_WIDTH, g->jury.height = GARDEN_HEIGHT;
+  adaptive_settings a = {GARDEN_WIDTH, GARDEN_HEIGHT, 0.08, 1e6, &g->jury};
+  g->samples = adaptive_new(&a, &o->mem);
+  g->guide = adaptive_guide(g->samples);
   g->settings = (render_settings){.width = GARDEN_WIDTH,
                                   .height = GARDEN_HEIGHT,
                                   .spp = 1 << 20,
@@ -219,30 +226,67 @@ static void garden_ready(output *o, garden *g) {
                                   .error = a.error};
 }
 
+// Two pictures of the garden, side by side.
+static void publish_pair(output *o, const char *name, const image *left,
+                         const image *right) {
+  image out = image_new(&o->mem, 2 * GARDEN_WIDTH + 4, GARDEN_HEIGHT);
+  for (int y = 0; y < GARDEN_HEIGHT; y++)
+    for (int x = 0; x < out.width; x++) {
+      int u = x - GARDEN_WIDTH - 4;
+      out.pixels[y * out.width + x] =
+          u >= 0             ? right->pixels[y * GARDEN_WIDTH + u]
+          : x < GARDEN_WIDTH ? left->pixels[y * GARDEN_WIDTH + x]
+                             : vec3_all(1);
+    }
+  publish(o->folder, name, out);
+}
+
+// A grey between two doublings.
+static vec3 grey_of(double x, double from, double to) {
+  double t = (log2(x) - from) / (to - from);
+  return vec3_all((float)srgb_decode(fmin(fmax(t, 0), 1)));
+}
+
+static image exposed(output *o, const image *im, float exposure) {
+  image out = image_new(&o->mem, im->width, im->height);
+  for (size_t i = 0; i < (size_t)GARDEN_WIDTH * GARDEN_HEIGHT; i++)
+    out.pixels[i] = vec3_scale(im->pixels[i], exp2f(exposure));
+  return out;
+}
+
+// What each pixel adds to the sum of errors, and those that a jury asks.
+static image draw_terms(output *o, const halves *h) {
+  enum { PIXELS = GARDEN_WIDTH * GARDEN_HEIGHT };
+  image out = image_new(&o->mem, GARDEN_WIDTH, GARDEN_HEIGHT);
+  double *terms = ARENA_NEW(&o->mem, double, PIXELS), sum = 0, asked = 0;
+  halves_error(h, terms, o->threads);
+  for (int i = 0; i < PIXELS; i++)
+    sum += terms[i];
+  for (int i = 0; i < PIXELS; i++)
+    out.pixels[i] = grey_of(terms[i] * PIXELS / sum, -10, 4);
+  for (int i = GARDEN_WIDTH + 1; i < PIXELS - GARDEN_WIDTH - 1; i++) {
+    if (terms[i] * PIXELS / sum < 64) continue;
+    asked++;
+    for (int k = 0; k < 9; k++)
+      out.pixels[i + (k / 3 - 1) * GARDEN_WIDTH + k % 3 - 1] = plot_color(1);
+  }
+  printf("garden: %g pixels have 64 times the average term\n", asked);
+  return out;
+}
+
 static void draw_samples(output *o) {
   garden *g = ARENA_NEW(&o->mem, garden, 1);
   garden_ready(o, g);
-  camera_view view =
-      view_by(&g->all.scene.cameras[0], GARDEN_WIDTH, GARDEN_HEIGHT);
   render_result r;
-  render_run(&r, &g->all.world, &view, &g->settings, &o->mem, o->threads);
-  image out = image_new(&o->mem, 2 * GARDEN_WIDTH + 4, GARDEN_HEIGHT);
-  float gain = exp2f(g->all.scene.exposure);
-  for (int y = 0; y < GARDEN_HEIGHT; y++)
-    for (int x = 0; x < out.width; x++) {
-      int u = x < GARDEN_WIDTH ? x : x - GARDEN_WIDTH - 4;
-      vec3 *p = &out.pixels[y * out.width + x];
-      if (u < 0 || (x >= GARDEN_WIDTH && x < GARDEN_WIDTH + 4)) {
-        *p = vec3_all(1);
-        continue;
-      }
-      int i = y * GARDEN_WIDTH + u;
-      double n = log2((double)r.aov[4].pixels[i].x / 8) / 4;
-      *p = x < GARDEN_WIDTH ? vec3_scale(r.color.pixels[i], gain)
-                            : vec3_all((float)srgb_decode(fmin(n, 1)));
-    }
+  render_run(&r, &g->all.world, &g->view, &g->settings, &o->mem, o->threads);
+  image seen = exposed(o, &r.color, g->all.scene.exposure);
+  image taken = image_new(&o->mem, GARDEN_WIDTH, GARDEN_HEIGHT);
+  for (int i = 0; i < GARDEN_WIDTH * GARDEN_HEIGHT; i++)
+    taken.pixels[i] = grey_of((double)r.aov[4].pixels[i].x, 3, 7);
   printf("garden: %d samples a pixel on average, error %.4f\n", r.spp, r.error);
-  publish(o->folder, "samples", out);
+  publish_pair(o, "samples", &seen, &taken);
+  image terms = draw_terms(o, adaptive_sums(g->samples));
+  publish_pair(o, "jury", &seen, &terms);
 }
 
 // Lines of measured.csv, as facet bench error --csv printed them.
