@@ -12,9 +12,6 @@
 // of the picture, isn't asked: it might miss what the picture has met.
 #define LEAST 4
 
-// How far above the goal the error without a jury may be for it to be asked.
-#define NEAR 1.1
-
 // Samples of a pixel, at most a batch.
 typedef struct seat {
   size_t pixel;          // in the window
@@ -196,8 +193,7 @@ halves_estimate jury_error(jury *j, const halves *h, double goal,
   size_t pixels = (size_t)h->half[0].width * (size_t)h->half[0].height;
   double *terms = ARENA_NEW(&scratch, double, pixels);
   halves_estimate is = halves_error(h, terms, threads);
-  if (is.error > 0 && is.error <= NEAR * goal)
-    is = ask(j, h, terms, is, threads);
+  if (is.error > 0 && is.error <= goal) is = ask(j, h, terms, is, threads);
   arena_free(&scratch);
   return is;
 }

@@ -16,9 +16,9 @@ typedef struct jury {
 } jury;
 
 // The relative error of the halves, and how well that is known, as halves_error
-// tells them.  Where that is no more than `goal`, or little more, the jury is
-// asked before: by a sixteenth of the halves' samples at most, and for the same
-// halves the same.
+// tells them; but where that is no more than `goal`, the jury is asked before:
+// by a sixteenth of the halves' samples at most, and for the same halves the
+// same.
 halves_estimate jury_error(jury *j, const halves *h, double goal,
                            pool *threads);
 

@@ -168,7 +168,7 @@ static void few_are_asked(void **state) {
   jury j = jury_of(&by);
   halves h = halves_of(1, &mem);
   halves_estimate is = halves_error(&h, terms, NULL);
-  jury_error(&j, &h, is.error / 1.2, NULL);
+  jury_error(&j, &h, is.error / 1.01, NULL);
   assert_true(j.samples == 0);
   jury_error(&j, &h, is.error, NULL);
   uint64_t samples = 0, pixels = 0;

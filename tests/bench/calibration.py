@@ -11,7 +11,7 @@ their samples; what it lacks itself is subtracted.  --truth takes a picture of
 SPP even samples for the truth instead: pictures of rare bright samples know
 each other badly.  ratio is printed / true; the last columns are the shares of
 runs in which the true error lies within 10 % of the printed one, and in which
-it is no more than --error asked for.
+it is no more than --error asked for; jury: its samples for those of the picture.
 """
 import argparse
 import array
@@ -58,7 +58,7 @@ def main():
     settings = a.settings.split(";")
     print(f"{a.seeds} seeds, {a.size}")
     print(f"{'scene':14s} {'setting':13s} {'spp':>5s} {'true':>8s} {'printed':>8s} "
-          f"{'ratio':>6s} {'least':>6s} {'most':>6s} {'within 10 %':>11s} {'as asked':>8s}")
+          f"{'ratio':>6s} {'least':>6s} {'most':>6s} {'within 10 %':>11s} {'as asked':>8s} {'jury':>5s}")
     good = runs = 0
     out = os.path.join(tempfile.mkdtemp(), "x.pfm")
     for scene in a.scenes.split(","):
@@ -92,9 +92,11 @@ def main():
             asked = s.split()[1] if s.startswith("--error ") else "inf"
             kept = sum(t <= float(asked) for t in true)
             spp = sum(results[s][k][1]["samples"] for k in range(a.seeds)) / a.seeds / (n / 3)
+            jury = sum(j.get("jury", {}).get("samples", 0) / j["samples"] for _, j in results[s]) / a.seeds
             print(f"{scene:14s} {s:13s} {spp:5.0f} {sum(true) / a.seeds:8.4f} {sum(said) / a.seeds:8.4f} "
                   f"{sum(ratio) / a.seeds:6.3f} {min(ratio):6.3f} {max(ratio):6.3f} {100 * within / a.seeds:10.0f}% "
-                  + (f"{100 * kept / a.seeds:7.0f}%" if asked != "inf" else f"{'-':>8s}"),
+                  + (f"{100 * kept / a.seeds:7.0f}%" if asked != "inf" else f"{'-':>8s}")
+                  + f" {100 * jury:4.1f}%",
                   flush=True)
             good, runs = good + within, runs + a.seeds
     print(f"within 10 %: {good} of {runs} runs")
