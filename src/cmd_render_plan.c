@@ -42,6 +42,10 @@ void render_plan_note_paths(render_job *j) {
   plan_note(p, PLAN_ENV_TABLE, e->columns != NULL, -1,
             1.25 * sizeof(uint32_t) * e->map.width * e->map.height);
   plan_note(p, PLAN_ASK, r->paths.asked, -1, 0);
+  if (j->lights.memory != NULL)
+    p->line[PLAN_ASK].why = j->lights.sky.count > 0
+                                ? "memory knows what of the sky is seen where"
+                                : "memory knows what lamps are seen where";
   plan_note(p, PLAN_SHADOW_RAY, r->paths.shadows, -1, 0);
   p->line[PLAN_SHADOW_RAY].all = r->paths.asked;
   plan_note(p, PLAN_AIM, r->paths.aimed, -1, 0);

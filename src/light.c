@@ -48,6 +48,32 @@ bool light_set_any(const light_set *l) {
   return l->near.count > 0 || l->far_count > 0 || l->env.irradiance > 0;
 }
 
+// The powers of all parts; how many there are.
+static uint32_t cut_lights(light_set *l, float *power, arena *mem) {
+  l->sky.count = 0;
+  if (light_parts_of(&l->parts, &l->near, mem)) {
+    for (uint32_t i = 0; i < l->parts.count; i++)
+      power[i] = light_parts_power(&l->parts, i);
+    return l->parts.count;
+  }
+  if (l->near.count > 0) return 0;
+  if (!light_sky_of(&l->sky, &l->env, LIGHT_PARTS_MOST, mem)) return 0;
+  memcpy(power, l->sky.power, sizeof l->sky.power);
+  return l->sky.count;
+}
+
+light_memory *light_set_cut(light_set *l, vec3 lo, vec3 hi, arena *mem) {
+  float power[LIGHT_PARTS_MOST];
+  uint32_t n = cut_lights(l, power, mem);
+  light_memory *m = ARENA_NEW(mem, light_memory, 1);
+  if (n == 0 || !light_memory_new(m, power, n, lo, hi, mem)) return NULL;
+  m->rest = l->env.rest;
+  if (l->sky.count == 0) m->rest += l->env.irradiance;
+  for (size_t i = 0; i < l->far_count; i++)
+    m->rest += l->far[i].power;
+  return m;
+}
+
 // The probabilities of the three kinds of light at a place.
 typedef struct shares {
   float near, far, env;
@@ -90,6 +116,14 @@ typedef struct asked {
   float share;
 } asked;
 
+// A part that memory chooses.
+static bool remember(const light_set *l, const light_place *at, double u,
+                     uint32_t *part, float *share) {
+  uint32_t key = light_memory_key(l->memory, at->p, at->n);
+  float one = float_min((float)u, FLOAT_BELOW_1);
+  return light_memory_pick(l->memory, key, one, part, share);
+}
+
 static bool choose_near(const light_set *l, const light_place *at, double u,
                         asked *out) {
   uint32_t i;
@@ -97,10 +131,8 @@ static bool choose_near(const light_set *l, const light_place *at, double u,
   if (l->memory == NULL) {
     if (!light_tree_pick(&l->near, at, u, &i, &out->share)) return false;
   } else {
-    uint32_t key = light_memory_key(l->memory, at->p, at->n);
-    float one = float_min((float)u, FLOAT_BELOW_1);
-    if (!light_memory_pick(l->memory, key, one, &i, &out->share)) return false;
-    out->part = &l->memory->parts.of[i];
+    if (!remember(l, at, u, &i, &out->share)) return false;
+    out->part = &l->parts.of[i];
     i = out->part->emitter;
   }
   out->emitter = &l->near.emitters[i];
@@ -132,7 +164,7 @@ static bool sample_near(const light_set *l, const light_place *at, double u1,
   asked a;
   if (!choose_near(l, at, u1, &a)) return false;
   out->chosen = a.share;
-  if (a.part != NULL) out->part = (uint32_t)(a.part - l->memory->parts.of);
+  if (a.part != NULL) out->part = (uint32_t)(a.part - l->parts.of);
   if (a.emitter->is_point) return sample_point(l, at, &a, out);
   const light_triangle *t = a.part != NULL ? &a.part->shape : &a.emitter->shape;
   light_point q;
@@ -153,14 +185,30 @@ static bool sample_far(const light_set *l, const light_place *at, float sum,
     const light_far *f = &l->far[i];
     float weight = far_weight(f, at);
     if (!(weight > 0)) continue;
-    *out = (light_sample){.wi = f->wi,
-                          .radiance = f->irradiance,
-                          .pdf = weight / sum,
-                          .delta = true};
+    out->wi = f->wi;
+    out->radiance = f->irradiance;
+    out->pdf = weight / sum;
+    out->delta = true;
     left -= (double)weight;
     if (left < 0) break;
   }
   return out->pdf > 0;
+}
+
+// Whether memory is of the sky.
+static bool knows_sky(const light_set *l) {
+  return l->memory != NULL && l->sky.count > 0;
+}
+
+// The part of the environment to ask, if it has any; false: none.
+static bool choose_env(const light_set *l, const light_place *at, double u,
+                       light_sample *out) {
+  out->chosen = 1;
+  if (!knows_sky(l)) return true;
+  uint32_t part;
+  if (!remember(l, at, u, &part, &out->chosen)) return false;
+  out->part = part;
+  return true;
 }
 
 // Choose a kind of light, and ask it; *share is the probability of the kind.
@@ -172,7 +220,9 @@ static bool ask_all_but_env(const light_set *l, const light_question *q,
   double choice = light_finer(q->u), near = (double)s.near;
   *out = (light_sample){.part = LIGHT_NO_PART};
   *share = s.env;
-  if (choice - near >= (double)s.far) return s.env > 0;
+  double rest = choice - near - (double)s.far;
+  if (rest >= 0)
+    return s.env > 0 && choose_env(l, &at, rest / (double)s.env, out);
   bool found;
   if (choice < near) {
     *share = s.near;
@@ -193,6 +243,7 @@ enum { TOGETHER = 64 };
 static void sample_some(const light_set *l, const light_question *q, size_t n,
                         light_sample *out) {
   light_sample *to[TOGETHER];
+  uint32_t part[TOGETHER];
   float share[TOGETHER];
   vec2 u[TOGETHER];
   env_sample found[TOGETHER];
@@ -200,13 +251,18 @@ static void sample_some(const light_set *l, const light_question *q, size_t n,
   for (size_t i = 0; i < n; i++) {
     if (!ask_all_but_env(l, &q[i], &out[i], &share[count])) continue;
     u[count] = (vec2){q[i].u.y, q[i].u.z};
+    part[count] = out[i].part;
     to[count++] = &out[i];
   }
-  light_env_samples(&l->env, u, count, found);
+  if (knows_sky(l))
+    light_sky_samples(&l->sky, part, u, count, found);
+  else
+    light_env_samples(&l->env, u, count, found);
   for (size_t i = 0; i < count; i++) {
     to[i]->wi = found[i].wi;
     to[i]->radiance = found[i].radiance;
-    to[i]->pdf = found[i].pdf * share[i];
+    to[i]->chosen *= share[i];
+    to[i]->pdf = found[i].pdf * to[i]->chosen;
   }
 }
 
@@ -245,9 +301,9 @@ float light_pdf_triangle(const light_set *l, vec3 p, vec3 n, uint32_t triangle,
   if (!emitter_of(l, triangle, &i)) return 0;
   light_place at = light_place_of(p, n);
   const light_memory *m = l->memory;
-  uint32_t part = m != NULL ? light_parts_at(&m->parts, i, q) : 0;
+  uint32_t part = m != NULL ? light_parts_at(&l->parts, i, q) : 0;
   float pdf = light_triangle_pdf(
-      m != NULL ? &m->parts.of[part].shape : &l->near.emitters[i].shape, p, q);
+      m != NULL ? &l->parts.of[part].shape : &l->near.emitters[i].shape, p, q);
   if (!(pdf > 0)) return 0;
   float share = m != NULL
                     ? light_memory_share(m, light_memory_key(m, p, n), part)
@@ -258,5 +314,9 @@ float light_pdf_triangle(const light_set *l, vec3 p, vec3 n, uint32_t triangle,
 float light_pdf_env(const light_set *l, vec3 p, vec3 n, vec2 uv) {
   if (!(l->env.irradiance > 0)) return 0;
   light_place at = light_place_of(p, n);
-  return shares_at(l, &at).env * light_env_density(&l->env, uv);
+  float share = shares_at(l, &at).env;
+  if (!knows_sky(l)) return share * light_env_density(&l->env, uv);
+  uint32_t part, key = light_memory_key(l->memory, p, n);
+  float pdf = light_sky_density(&l->sky, uv, &part);
+  return share * pdf * light_memory_share(l->memory, key, part);
 }

@@ -5,6 +5,7 @@
 
 #include "light_env.h"
 #include "light_memory.h"
+#include "light_sky.h"
 #include "light_tree.h"
 #include "rng.h"
 #include "scene.h"
@@ -30,7 +31,9 @@ typedef struct light_set {
   light_tree near;    // shining triangles and point lights
   light_name *names;  // of the triangles, rising
   size_t name_count;
-  const light_memory *memory;  // of near; NULL: none
+  light_parts parts;           // of near
+  light_sky sky;               // the parts of env, where near has none
+  const light_memory *memory;  // of one or the other; NULL: none
 } light_set;
 
 // What shines in a scene, which must stay: triangles with emission, always;
@@ -41,6 +44,11 @@ void light_set_build(light_set *out, const scene *s, bool lights_on,
 
 // Whether there is anything to sample at all.
 bool light_set_any(const light_set *l);
+
+// Cut near, or where there is nothing near env, into parts; a memory of them
+// that has learned nothing, in mem.  The box is the scene's.  NULL when they
+// are not such that they could be remembered.
+light_memory *light_set_cut(light_set *l, vec3 lo, vec3 hi, arena *mem);
 
 // One direction in which there may be light.  Where nothing is in between,
 // f(wo, wi) cos radiance / pdf estimates the light from all lights that

@@ -148,6 +148,7 @@ static void weigh(light_env *l, float unit, arena *mem, pool *threads) {
   double cells = (double)width * (double)l->map.height;
   double mean = sum / cells * (double)unit;  // of radiance times sine
   l->irradiance = (float)(mean * (double)(PI * PI / 2)) * l->env->scale;
+  l->rest = PI * l->mean * l->env->scale - l->irradiance;
   arena_free(&scratch);
 }
 
@@ -183,26 +184,18 @@ static float per_steradian(float pdf, float v) {
   return sine > 0 ? pdf / (2 * PI * PI * sine) : 0;
 }
 
-// A cell on its way to be found: what is left of the numbers that found its row
-// and its column, and the probability of what is found.
-typedef struct spot {
-  int i, j;
-  vec2 u;
-  float share;
-} spot;
-
-static spot find_row(const light_env *l, vec2 u) {
-  spot s = {.u = u};
-  s.j = (int)pick_at(&l->rows, &s.u.y, &s.share);
-  pick_expect(&l->columns[s.j], u.x);
+static light_env_spot find_row(const light_env *l, vec2 u) {
+  light_env_spot s = {.u = u};
+  s.row = (int)pick_at(&l->rows, &s.u.y, &s.share);
+  pick_expect(&l->columns[s.row], u.x);
   return s;
 }
 
-static void find_column(const light_env *l, spot *s) {
+void light_env_find_column(const light_env *l, light_env_spot *s) {
   float share;
-  s->i = (int)pick_at(&l->columns[s->j], &s->u.x, &share);
+  s->column = (int)pick_at(&l->columns[s->row], &s->u.x, &share);
   s->share *= share;
-  corners at = corners_of(l, s->i, s->j);
+  corners at = corners_of(l, s->column, s->row);
   __builtin_prefetch(at.above + at.left);
   __builtin_prefetch(at.below + at.left);
 }
@@ -216,17 +209,18 @@ static vec3 radiance_at(const light_env *l, const corners *c, vec2 at,
   return vec3_scale(vec3_lerp(above, below, at.y), l->env->scale);
 }
 
-static env_sample sample_cell(const light_env *l, const spot *s) {
+env_sample light_env_sample_cell(const light_env *l, const light_env_spot *s) {
   env_sample none = {.pdf = 0};
-  corners around = corners_of(l, s->i, s->j);
+  corners around = corners_of(l, s->column, s->row);
   cell c = cell_of(l, &around);
   if (!(cell_mean(&c) > 0)) return none;
   vec2 at;
   at.y = sample_slope(c.a00 + c.a01, c.a10 + c.a11, s->u.y);
   at.x = sample_slope(c.a00 * (1 - at.y) + c.a10 * at.y,
                       c.a01 * (1 - at.y) + c.a11 * at.y, s->u.x);
-  float top = s->j > 0 ? (float)s->j - 0.5f : 0, high = cell_height(l, s->j);
-  float u = ((float)s->i - 0.5f + at.x) / (float)l->map.width - l->env->rotate;
+  float top = s->row > 0 ? (float)s->row - 0.5f : 0;
+  float high = cell_height(l, s->row), left = (float)s->column - 0.5f;
+  float u = (left + at.x) / (float)l->map.width - l->env->rotate;
   float v = (top + high * at.y) / (float)l->map.height;
   env_sample out = {.wi = env_direction((vec2){u - floorf(u), v})};
   out.pdf = per_steradian(cell_pdf(l, &c, at, s->share / high), v);
@@ -240,7 +234,7 @@ enum { TOGETHER = 64 };
 
 void light_env_samples(const light_env *l, const vec2 *u, size_t n,
                        env_sample *out) {
-  spot spots[TOGETHER];
+  light_env_spot spots[TOGETHER];
   if (!(l->irradiance > 0)) memset(out, 0, n * sizeof *out);
   if (!(l->irradiance > 0)) return;
   for (size_t i = 0; i < n; i += TOGETHER) {
@@ -248,11 +242,11 @@ void light_env_samples(const light_env *l, const vec2 *u, size_t n,
     for (size_t k = 0; k < some; k++)
       spots[k] = find_row(l, u[i + k]);
     for (size_t k = 0; k < some; k++)
-      pick_search(&l->columns[spots[k].j], u[i + k].x);
+      pick_search(&l->columns[spots[k].row], u[i + k].x);
     for (size_t k = 0; k < some; k++)
-      find_column(l, &spots[k]);
+      light_env_find_column(l, &spots[k]);
     for (size_t k = 0; k < some; k++)
-      out[i + k] = sample_cell(l, &spots[k]);
+      out[i + k] = light_env_sample_cell(l, &spots[k]);
   }
 }
 
@@ -262,40 +256,40 @@ env_sample light_env_sample(const light_env *l, vec2 u) {
   return one;
 }
 
-// The cell in which (u, v) lies, and where.
-typedef struct inside {
-  int i, j;
-  vec2 at;
-} inside;
-
-static inside inside_of(const light_env *l, vec2 uv) {
+light_env_place light_env_place_of(const light_env *l, vec2 uv) {
   const image *m = &l->map;
   float u = uv.x + l->env->rotate;
   float x = (u - floorf(u)) * (float)m->width + 0.5f;
   float y = uv.y * (float)m->height + 0.5f;
-  inside s = {.i = (int)x, .j = clamped((int)y, m->height + 1)};
-  s.at = (vec2){x - (float)s.i, y - (float)s.j};
-  if (s.i >= m->width) s.i = 0;
-  if (s.j == 0) s.at.y = 2 * s.at.y - 1;
-  if (s.j == m->height) s.at.y = float_min(2 * s.at.y, 1);
-  return s;
+  light_env_place p = {(int)x, clamped((int)y, m->height + 1), {0, 0}};
+  p.at = (vec2){x - (float)p.column, y - (float)p.row};
+  if (p.column >= m->width) p.column = 0;
+  if (p.row == 0) p.at.y = 2 * p.at.y - 1;
+  if (p.row == m->height) p.at.y = float_min(2 * p.at.y, 1);
+  return p;
 }
 
 void light_env_expect(const light_env *l, vec2 uv) {
   if (!(l->irradiance > 0)) return;
-  inside s = inside_of(l, uv);
-  __builtin_prefetch(&l->columns[s.j].upto[s.i]);
+  light_env_place p = light_env_place_of(l, uv);
+  __builtin_prefetch(&l->columns[p.row].upto[p.column]);
+}
+
+float light_env_cell_density(const light_env *l, const light_env_place *p,
+                             float v, float share) {
+  corners around = corners_of(l, p->column, p->row);
+  cell c = cell_of(l, &around);
+  share /= cell_height(l, p->row);
+  float pdf = per_steradian(cell_pdf(l, &c, p->at, share), v);
+  return isfinite(pdf) ? pdf : 0;
 }
 
 float light_env_density(const light_env *l, vec2 uv) {
   if (!(l->irradiance > 0)) return 0;
-  inside s = inside_of(l, uv);
-  corners around = corners_of(l, s.i, s.j);
-  cell c = cell_of(l, &around);
-  float share = pick_share(&l->columns[s.j], (uint32_t)s.i) *
-                pick_share(&l->rows, (uint32_t)s.j) / cell_height(l, s.j);
-  float pdf = per_steradian(cell_pdf(l, &c, s.at, share), uv.y);
-  return isfinite(pdf) ? pdf : 0;
+  light_env_place p = light_env_place_of(l, uv);
+  float share = pick_share(&l->columns[p.row], (uint32_t)p.column) *
+                pick_share(&l->rows, (uint32_t)p.row);
+  return light_env_cell_density(l, &p, uv.y, share);
 }
 
 float light_env_pdf(const light_env *l, vec3 wi) {

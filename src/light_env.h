@@ -20,6 +20,7 @@ typedef struct light_env {
   pick rows;      // of cells: one more, the first and the last half as high
   pick *columns;  // as many cells as texels, of each row
   float irradiance;  // what the table stands for, on a plane, roughly; 0: none
+  float rest;        // what it leaves out, likewise
 } light_env;
 
 void light_env_build(light_env *out, const env *e, arena *mem, pool *threads);
@@ -44,5 +45,30 @@ void light_env_samples(const light_env *l, const vec2 *u, size_t n,
 float light_env_pdf(const light_env *l, vec3 wi);
 void light_env_expect(const light_env *l, vec2 uv);
 float light_env_density(const light_env *l, vec2 uv);
+
+// A cell of the table on its way to be found: what is left of two numbers that
+// find it, and its probability, so far that of its row.
+typedef struct light_env_spot {
+  int column, row;
+  vec2 u;
+  float share;
+} light_env_spot;
+
+// What light_env_samples does next: find the column by s->u.x, and let texels
+// come nearer; and last, find the direction.
+void light_env_find_column(const light_env *l, light_env_spot *s);
+env_sample light_env_sample_cell(const light_env *l, const light_env_spot *s);
+
+// The cell in which (u, v) lies, and where.
+typedef struct light_env_place {
+  int column, row;
+  vec2 at;
+} light_env_place;
+
+light_env_place light_env_place_of(const light_env *l, vec2 uv);
+
+// The density there, if that cell has a probability of `share`.
+float light_env_cell_density(const light_env *l, const light_env_place *p,
+                             float v, float share);
 
 #endif

@@ -21,6 +21,14 @@ enum { NEAR = 3, SOME = GRID / NEAR, REGIONS = SOME * SOME * SOME * SIDES };
 // The least probability that any light is asked.
 #define LEAST_ASKED 0.08f
 
+// What a question costs, over all else that a path does at a vertex.
+#define COST 0.25
+
+// The relative variance of all light that nobody is asked for, and how much of
+// it there is by way of other surfaces: a share of the usual light.
+#define OTHER_NOISE 0.3
+#define INDIRECT 0.1
+
 // Where there are more cells than numbers for them, the rest learns nothing.
 enum { MOST_CELLS = 1 << 16 };
 
@@ -34,17 +42,11 @@ uint32_t light_memory_key(const light_memory *m, vec3 p, vec3 n) {
   return key * SIDES + light_side(n);
 }
 
-static float power_of(const light_memory *m, uint32_t part) {
-  const light_emitter *e = &m->parts.tree->emitters[m->parts.of[part].emitter];
-  uint32_t cuts = e->is_point ? 1 : m->parts.cuts;
-  return e->power / (float)(cuts * cuts);
-}
-
 // A cell by weights whose sum is the probability to ask at all.  Each part
 // keeps a unit: what shines may be asked.
 static light_cell cell_of_weights(const light_memory *m, const float *weights) {
   light_cell c;
-  uint32_t n = m->parts.count, end = 0;
+  uint32_t n = m->count, end = 0;
   for (uint32_t i = 0; i < LIGHT_PARTS_MOST; i++) {
     if (i < n) end += 1 + (uint32_t)(weights[i] * (float)(UNITS - n - 1));
     c.last[i] = (uint16_t)(i < n ? end - 1 : UNITS - 1);
@@ -52,18 +54,19 @@ static light_cell cell_of_weights(const light_memory *m, const float *weights) {
   return c;
 }
 
-bool light_memory_new(light_memory *out, const light_tree *t, vec3 lo, vec3 hi,
-                      arena *mem) {
-  light_memory m = {.lo = lo};
+bool light_memory_new(light_memory *out, const float *power, uint32_t count,
+                      vec3 lo, vec3 hi, arena *mem) {
+  light_memory m = {.lo = lo, .count = count};
   float longest = vec3_peak(vec3_sub(hi, lo));
   m.per_unit = GRID / longest;
   if (!(longest > 0 && isfinite(m.per_unit)) || !vec3_finite(lo)) return false;
-  if (!light_parts_of(&m.parts, t, mem)) return false;
-  float weights[LIGHT_PARTS_MOST], power = 0;
-  for (uint32_t i = 0; i < m.parts.count; i++)
-    power += power_of(&m, i);
-  for (uint32_t i = 0; i < m.parts.count; i++)
-    weights[i] = power_of(&m, i) / power;
+  float weights[LIGHT_PARTS_MOST], sum = 0;
+  for (uint32_t i = 0; i < count; i++)
+    sum += power[i];
+  for (uint32_t i = 0; i < count; i++) {
+    m.power[i] = power[i];
+    weights[i] = power[i] / sum;
+  }
   m.cell_of = ARENA_NEW(mem, uint16_t, KEYS);
   m.cells = ARENA_NEW(mem, light_cell, 1);
   m.cells[0] = cell_of_weights(&m, weights);
@@ -71,20 +74,33 @@ bool light_memory_new(light_memory *out, const light_tree *t, vec3 lo, vec3 hi,
   return true;
 }
 
-// What is known of a part in a cell.
+// What is known of a part in a cell: sums over `asked` questions, of weights
+// and of weighted finds.
 typedef struct lore {
-  double squares;
-  uint32_t asked;
+  double asked, weights, finds, squares;
 } lore;
+
+// What that means: the irradiance; the mean square of a find; and the
+// probability that a scattered ray goes there, in terms of that of a question.
+typedef struct view {
+  double mean, square, scattered;
+} view;
+
+// All parts from a cell, and all light that is there.
+typedef struct outlook {
+  view of[LIGHT_PARTS_MOST];
+  double light;
+} outlook;
 
 // Learning: lore by cell and part, the first cell for all; the same for
 // regions of neighbours.
 typedef struct school {
   light_memory *m;
+  double share[LIGHT_PARTS_MOST];  // of the power
   lore *of, *region;
   uint32_t *key_of, *visits;  // by cell
   uint32_t cells, parts;
-  double whole;  // root of the mean square, summed over the parts, of all
+  double usual;  // light, in all of the scene
 } school;
 
 static uint32_t region_of(uint32_t key) {
@@ -93,39 +109,92 @@ static uint32_t region_of(uint32_t key) {
   return ((z / NEAR * SOME + y / NEAR) * SOME + x / NEAR) * SIDES + side;
 }
 
-static double refine(const lore *own, double usual) {
-  return (own->squares + (double)SHARED * usual) /
-         ((double)own->asked + (double)SHARED);
+// What a cell knows, with so much of what others know.
+static lore refine(const lore *own, lore others) {
+  double k = others.asked > 0 ? (double)SHARED / others.asked : 0;
+  return (lore){
+      own->asked + k * others.asked, own->weights + k * others.weights,
+      own->finds + k * others.finds, own->squares + k * others.squares};
 }
 
-static double mean_square(const school *s, uint32_t cell, uint32_t part) {
-  const lore *all = &s->of[part];
-  double usual = all->asked > 0 ? all->squares / all->asked : 0;
-  if (cell == 0) return usual;
-  usual =
-      refine(&s->region[region_of(s->key_of[cell]) * s->parts + part], usual);
-  return refine(&s->of[(size_t)cell * s->parts + part], usual);
+// The density of scattered rays over that of a question is taken to be the
+// same all over a part: weights then are 1 / (1 + their quotient).
+static view view_of(const school *s, uint32_t cell, uint32_t part) {
+  lore l = s->of[part];
+  if (cell > 0) {
+    uint32_t region = region_of(s->key_of[cell]);
+    l = refine(&s->region[region * s->parts + part], l);
+    l = refine(&s->of[(size_t)cell * s->parts + part], l);
+  }
+  if (!(l.weights > 0)) return (view){0, 0, 0};
+  return (view){l.finds / l.weights, l.squares / l.weights,
+                s->share[part] * fmax(l.asked / l.weights - 1, 0)};
 }
 
-// The best probabilities are as the roots of the mean squares, and so is how
-// often to ask at all.
+static outlook outlook_of(const school *s, uint32_t cell) {
+  outlook o = {.light = (double)s->m->rest + INDIRECT * s->usual};
+  for (uint32_t i = 0; i < s->parts; i++) {
+    o.of[i] = view_of(s, cell, i);
+    o.light += o.of[i].mean;
+  }
+  return o;
+}
+
+// The mean square of what both ways find together, with p for questions.
+static double noise_of(const outlook *o, uint32_t n, const double *p) {
+  double sum = OTHER_NOISE * o->light * o->light;
+  for (uint32_t i = 0; i < n; i++)
+    if (o->of[i].square > 0)
+      sum += o->of[i].square / (p[i] + o->of[i].scattered);
+  return sum;
+}
+
+// The factor of the roots with which all of one question is dealt out.
+static double whole_question(const outlook *o, uint32_t n) {
+  double factor = INFINITY;
+  for (bool again = true; again;) {
+    double budget = 1, roots = 0, before = factor;
+    for (uint32_t i = 0; i < n; i++) {
+      double root = sqrt(o->of[i].square);
+      if (!(root * before > o->of[i].scattered)) continue;
+      budget += o->of[i].scattered;
+      roots += root;
+    }
+    if (roots > 0) factor = budget / roots;
+    again = roots > 0 && factor < before;
+  }
+  return factor;
+}
+
+// The best densities of both ways together are as the roots of the mean
+// squares; what scattered rays give is left away.  One more question is worth
+// its cost where that is the share of the noise that it takes away.  The
+// result is how often to ask at all.
+static double deal(const outlook *o, uint32_t n, double *p) {
+  double most = whole_question(o, n), asked = 1;
+  enum { ROUNDS = 4 };
+  for (int k = 0; k < ROUNDS; k++) {
+    double factor = fmin(most, 1 / sqrt(COST * noise_of(o, n, p)));
+    asked = 0;
+    for (uint32_t i = 0; i < n; i++) {
+      double root = sqrt(o->of[i].square);
+      p[i] = root > 0 ? fmax(root * factor - o->of[i].scattered, 0) : 0;
+      asked += p[i];
+    }
+  }
+  return asked;
+}
+
 static light_cell conclude(school *s, uint32_t cell) {
-  float weights[LIGHT_PARTS_MOST], power = 0;
-  double sum = 0;
-  for (uint32_t i = 0; i < s->parts; i++) {
-    weights[i] = (float)sqrt(mean_square(s, cell, i));
-    sum += (double)weights[i];
-    power += power_of(s->m, i);
-  }
-  if (cell == 0) s->whole = sum;
-  float doubt = sum > 0 ? DOUBT : 1, asked = 1;
-  if (sum > 0) asked = float_min((float)(2 * sum / s->whole), 1);
-  asked = float_max(asked, LEAST_ASKED);
-  for (uint32_t i = 0; i < s->parts; i++) {
-    float known = sum > 0 ? (float)((double)weights[i] / sum) : 0;
-    weights[i] = (1 - doubt) * known + doubt * (power_of(s->m, i) / power);
-    weights[i] *= asked;
-  }
+  double p[LIGHT_PARTS_MOST];
+  float weights[LIGHT_PARTS_MOST];
+  outlook o = outlook_of(s, cell);
+  if (cell == 0) s->usual = o.light;
+  memcpy(p, s->share, sizeof p);
+  double asked = deal(&o, s->parts, p), sure = 1 - (double)DOUBT;
+  double doubt = fmax(asked, (double)LEAST_ASKED) - sure * asked;
+  for (uint32_t i = 0; i < s->parts; i++)
+    weights[i] = (float)(sure * p[i] + doubt * s->share[i]);
   return cell_of_weights(s->m, weights);
 }
 
@@ -134,52 +203,56 @@ static float share_of(const light_cell *c, uint32_t part) {
   return (float)(c->last[part] + 1u - below) / UNITS;
 }
 
-// The mean square of what a question brings in a cell, over that if parts are
-// asked by their power.
-typedef struct outlook {
-  double by_power, by_memory;
-} outlook;
-
-static void look_at(const school *s, uint32_t cell, double power, outlook *o) {
-  const light_cell *c = &s->m->cells[cell];
-  for (uint32_t i = 0; i < s->parts; i++) {
-    double share = (double)share_of(c, i), square = mean_square(s, cell, i);
-    if (!(share > 0)) continue;
-    o->by_memory += (double)s->visits[cell] * square / share;
-    o->by_power +=
-        (double)s->visits[cell] * square * power / (double)power_of(s->m, i);
+// How many times the noise times the time would be without memory: relative to
+// the light of each cell, since eyes adapt.
+static double gain_of(const school *s) {
+  double without = 0, with = 0;
+  for (uint32_t cell = 1; cell < s->cells; cell++) {
+    double p[LIGHT_PARTS_MOST], asked = 0;
+    for (uint32_t i = 0; i < s->parts; i++) {
+      p[i] = (double)share_of(&s->m->cells[cell], i);
+      asked += p[i];
+    }
+    outlook o = outlook_of(s, cell);
+    double times = s->visits[cell] / (o.light * o.light);
+    if (!isfinite(times)) continue;
+    with += times * noise_of(&o, s->parts, p) * (1 + COST * asked);
+    without += times * noise_of(&o, s->parts, s->share) * (1 + COST);
   }
+  return with > 0 ? without / with : 0;
 }
 
-// How many times as many questions the same would take without memory.
-static double gain_of(const school *s) {
-  double power = 0;
-  outlook all = {0, 0};
-  for (uint32_t i = 0; i < s->parts; i++)
-    power += (double)power_of(s->m, i);
-  for (uint32_t cell = 1; cell < s->cells; cell++)
-    look_at(s, cell, power, &all);
-  return all.by_memory > 0 ? all.by_power / all.by_memory : 0;
+static void note(lore *l, const light_record *r) {
+  double weight = (double)r->weight, find = (double)r->found * weight;
+  l->asked++;
+  l->weights += weight;
+  l->finds += find;
+  l->squares += find * (double)r->found;
 }
 
 static void attend(school *s, const light_record *records, size_t n) {
   for (size_t i = 0; i < n; i++) {
     const light_record *r = &records[i];
     size_t cell = s->m->cell_of[r->key];
-    lore *of[3] = {&s->of[r->part], &s->of[cell * s->parts + r->part],
-                   &s->region[region_of(r->key) * s->parts + r->part]};
     s->visits[cell]++;
-    for (int k = 0; k < 3; k++) {
-      of[k]->asked++;
-      of[k]->squares += (double)r->square;
-    }
+    note(&s->of[r->part], r);
+    note(&s->of[cell * s->parts + r->part], r);
+    note(&s->region[region_of(r->key) * s->parts + r->part], r);
   }
+}
+
+static void weigh_powers(school *s) {
+  double sum = 0;
+  for (uint32_t i = 0; i < s->parts; i++)
+    sum += (double)s->m->power[i];
+  for (uint32_t i = 0; i < s->parts; i++)
+    s->share[i] = (double)s->m->power[i] / sum;
 }
 
 double light_memory_learn(light_memory *m, const light_record *records,
                           size_t n, arena *mem) {
   arena scratch = {0};
-  school s = {.m = m, .cells = 1, .parts = m->parts.count};
+  school s = {.m = m, .cells = 1, .parts = m->count};
   m->cell_of = ARENA_NEW(mem, uint16_t, KEYS);
   for (size_t i = 0; i < n; i++)
     if (m->cell_of[records[i].key] == 0 && s.cells < MOST_CELLS)
@@ -190,6 +263,7 @@ double light_memory_learn(light_memory *m, const light_record *records,
   s.visits = ARENA_NEW(&scratch, uint32_t, s.cells);
   s.region = ARENA_NEW(&scratch, lore, (size_t)REGIONS * s.parts);
   s.of = ARENA_NEW(&scratch, lore, (size_t)s.cells * s.parts);
+  weigh_powers(&s);
   attend(&s, records, n);
   m->cells = ARENA_NEW(mem, light_cell, s.cells);
   for (uint32_t i = 0; i < s.cells; i++)
@@ -224,7 +298,7 @@ bool light_memory_pick(const light_memory *m, uint32_t key, float u,
                        uint32_t *part, float *share) {
   const light_cell *c = cell_at(m, key);
   *part = count_below(c, (uint16_t)(u * UNITS));
-  if (*part >= m->parts.count) return false;
+  if (*part >= m->count) return false;
   *share = share_of(c, *part);
   return true;
 }

@@ -4,14 +4,19 @@
 #ifndef LIGHT_MEMORY_H
 #define LIGHT_MEMORY_H
 
+#include "arena.h"
 #include "light_part.h"
+#include "vec.h"
+
+#include <stdint.h>
 
 // What one question brought: the cell of the place (light_memory_key), whom it
-// went to, and the square of the irradiance from there over its density; 0
-// where something was in between.
+// went to, and the irradiance from there over its density; 0 where something
+// was in between.  weight: the density of that question over that and the one
+// of scattered rays, together.
 typedef struct light_record {
   uint32_t key, part;
-  float square;
+  float found, weight;
 } light_record;
 
 // Cells along the longest side of the scene, the sides that a surface may face,
@@ -27,21 +32,24 @@ typedef struct light_cell {
 // A cell for each place of a grid over the scene and each of six sides that a
 // surface may face.
 typedef struct light_memory {
-  light_parts parts;
+  float power[LIGHT_PARTS_MOST];
+  uint32_t count;  // parts
+  float rest;      // the irradiance that nobody is asked for, roughly
   vec3 lo;
   float per_unit;     // cells along a unit of length
   uint16_t *cell_of;  // by key
   light_cell *cells;  // the first one for places that nobody has been to
 } light_memory;
 
-// One that has learned nothing: parts by their power.  The box is the scene's.
-// False when the lights are not such that they could be remembered.
-bool light_memory_new(light_memory *out, const light_tree *t, vec3 lo, vec3 hi,
-                      arena *mem);
+// One that has learned nothing: parts, LIGHT_PARTS_MOST at most, by their
+// power.  The box is the scene's.  False when it is not such that it could be
+// divided.
+bool light_memory_new(light_memory *out, const float *power, uint32_t count,
+                      vec3 lo, vec3 hi, arena *mem);
 
-// Learn from n records; what was known before is forgotten.  The result is the
-// gain: the mean square of a question if parts were chosen by their power, over
-// that by what was learned, both as the records tell.
+// Learn from n records; what was known before is forgotten.  The result is how
+// many times as fast memory takes noise away, by what the records say of
+// themselves.
 double light_memory_learn(light_memory *m, const light_record *records,
                           size_t n, arena *mem);
 

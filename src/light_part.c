@@ -52,6 +52,12 @@ bool light_parts_of(light_parts *out, const light_tree *t, arena *mem) {
   return true;
 }
 
+float light_parts_power(const light_parts *p, uint32_t part) {
+  const light_emitter *e = &p->tree->emitters[p->of[part].emitter];
+  uint32_t cuts = e->is_point ? 1 : p->cuts;
+  return e->power / (float)(cuts * cuts);
+}
+
 // Twice the area over which d and e stretch, as seen along n.
 static float across(vec3 d, vec3 e, vec3 n) {
   return vec3_dot(vec3_cross(d, e), n);

@@ -28,6 +28,9 @@ enum { LIGHT_PARTS_EMITTERS = 64, LIGHT_PARTS_MOST = 64 };
 // False when there are no emitters or too many, or parts too small for floats.
 bool light_parts_of(light_parts *out, const light_tree *t, arena *mem);
 
+// The power of a part, if it shines like all of its emitter.
+float light_parts_power(const light_parts *p, uint32_t part);
+
 // The part of an emitter in which its point q lies.
 uint32_t light_parts_at(const light_parts *p, uint32_t emitter, vec3 q);
 

@@ -37,8 +37,8 @@ static void ask_light(wave *w, const stop *s, const bsdf *b, uint32_t turns) {
   meeting m = {0};
   bool found =
       s->lit ? path_ready_light(s, &l, &m) : look_alone(w, s, b, &l, &m);
-  size_t record = path_log_note(w->by->log, w->by->lights->memory, v, &l,
-                                found ? m.cosine : 0);
+  if (!found) m = (meeting){0};
+  size_t record = path_log_note(w->by->log, w->by->lights, v, &l, &m);
   if (!found) return;
   float scale = m.cosine / (l.pdf * (float)turns);
   if (!l.delta) scale *= wave_weight(l.pdf, m.pdf);
@@ -313,7 +313,7 @@ static void light_all(wave *w) {
       if (w->sheets)
         share = light_ray_through(&s->to, world, &s->from, w->stats);
       if (s->record != PATH_NO_RECORD)
-        w->by->log->items[s->record].square *= share;
+        w->by->log->items[s->record].found *= share;
       if (!(share > 0)) continue;
     }
     path *p = &w->paths[s->path];

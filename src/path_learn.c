@@ -14,8 +14,8 @@ enum { PIXELS_PER_PATH = 4, MOST_PATHS = 1 << 16, QUESTIONS = 8 };
 // The lesson goes on after one path of FIRST_SHARE only if the gain by then is
 // WORTH, and after one of TRIAL_SHARE only if there is HOPE.
 enum { FIRST_SHARE = 6, TRIAL_SHARE = 24 };
-#define WORTH 1.25
-#define HOPE 1.1
+#define WORTH 1.15
+#define HOPE 1.05
 
 // From fewer questions nothing is learned.
 enum { LEAST_RECORDS = 1000 };
@@ -90,14 +90,14 @@ static void hold_lesson(school_job *job, size_t to, path_log *all,
   arena_free(&scratch);
 }
 
-static bool new_memory(light_memory *out, const light_set *l, arena *mem) {
+static light_memory *new_memory(light_set *l, arena *mem) {
   const mesh *m = &l->scene->mesh;
   vec3 lo = vec3_all(INFINITY), hi = vec3_all(-INFINITY);
   for (size_t i = 0; i < m->position_count; i++) {
     lo = vec3_min(lo, m->positions[i]);
     hi = vec3_max(hi, m->positions[i]);
   }
-  return light_memory_new(out, &l->near, lo, hi, mem);
+  return light_set_cut(l, lo, hi, mem);
 }
 
 static void make_rooms(school_job *job, arena *mem, const pool *threads) {
@@ -128,8 +128,8 @@ static bool pays(school_job *job, path_log *all, pool *threads) {
 
 bool path_learn(light_set *lights, const path_tracer *by,
                 const path_film *lesson, arena *mem, pool *threads) {
-  light_memory *memory = ARENA_NEW(mem, light_memory, 1);
-  if (!new_memory(memory, lights, mem)) return false;
+  light_memory *memory = new_memory(lights, mem);
+  if (memory == NULL) return false;
   arena scratch = {0};
   path_tracer pupil = *by;
   pupil.questions = QUESTIONS;

@@ -5,7 +5,7 @@
 #define PATH_LOG_H
 
 #include "light.h"
-#include "vertex.h"
+#include "path_ready.h"
 
 typedef struct path_log {
   light_record *items;
@@ -14,10 +14,10 @@ typedef struct path_log {
 
 #define PATH_NO_RECORD SIZE_MAX
 
-// Write down who was asked for v, and what that would bring: s, of that cosine
-// to the normal.  The number of that line; PATH_NO_RECORD where log is NULL or
-// there is nothing to remember.
-size_t path_log_note(path_log *log, const light_memory *m, const vertex *v,
-                     const light_sample *s, float cosine);
+// Write down who was asked for v, and what that would bring: s, and what it
+// meets, all 0 where there is nothing.  The number of that line; PATH_NO_RECORD
+// where log is NULL or there is nothing to remember.
+size_t path_log_note(path_log *log, const light_set *l, const vertex *v,
+                     const light_sample *s, const meeting *m);
 
 #endif

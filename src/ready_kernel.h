@@ -20,7 +20,7 @@ static inline vec3 lane_radiance(const ready_work *w, int i,
   if (of->map_ke.image == NULL && !of->passes) return of->ke;
   float b = w->view.b[i], c = w->view.c[i];
   if (m == NULL) return light_emission(s, source, b, c);
-  const light_part *p = &m->parts.of[w->r.part[i]];
+  const light_part *p = &l->parts.of[w->r.part[i]];
   return light_emission(s, source, p->at.x + b * p->ab.x + c * p->ac.x,
                         p->at.y + b * p->ab.y + c * p->ac.y);
 }

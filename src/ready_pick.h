@@ -32,18 +32,19 @@ static inline void lane_ask(ready_light *to, int i, const light_triangle *t) {
 
 // light_memory_pick.  Whether there is a light to be asked is anybody's guess,
 // and a processor's: there is no branch.
-static inline void lane_remember(ready_work *w, int i, const light_memory *m,
+static inline void lane_remember(ready_work *w, int i, const light_set *l,
                                  double u) {
+  const light_memory *m = l->memory;
   const light_cell *c = &m->cells[w->cell[i]];
   float one = float_min((float)u, FLOAT_BELOW_1);
   uint32_t part = lane_part(c, (uint16_t)(one * LIGHT_UNITS));
-  int32_t found = (part < m->parts.count) & (u < 1) & w->r.matt[i];
+  int32_t found = (part < m->count) & (u < 1) & w->r.matt[i];
   part &= 0 - (uint32_t)found;
   w->r.found[i] = found;
   w->r.part[i] = part | ((uint32_t)found - 1);
   w->light.share[i] = lane_share(c, part);
-  w->light.emitter[i] = m->parts.of[part].emitter;
-  lane_ask(&w->light, i, &m->parts.of[part].shape);
+  w->light.emitter[i] = l->parts.of[part].emitter;
+  lane_ask(&w->light, i, &l->parts.of[part].shape);
 }
 
 // light_tree_pick.
@@ -69,7 +70,7 @@ static inline void ready_pick(ready_work *w, const light_set *l) {
     choice[i] = light_finer((vec3){w->r.u[USE_PICK][i], w->r.u[USE_LIGHT][i],
                                    w->r.u[USE_LIGHT + 1][i]});
   for (int i = 0; i < LANES && l->memory != NULL; i++)
-    lane_remember(w, i, l->memory, choice[i]);
+    lane_remember(w, i, l, choice[i]);
   if (l->memory != NULL) return;
   const light_tree *t = &l->near;
   if (t->nodes[0].count == 0) {

@@ -51,10 +51,8 @@ static world *new_world(bool smooth, bool memory, bool few, bool open,
   world_ready(w, 0);
   light_set_build(lights, &w->scene, true, true, &w->mem, NULL);
   if (!memory) return w;
-  light_memory *m = ARENA_NEW(&w->mem, light_memory, 1);
-  assert_true(
-      light_memory_new(m, &lights->near, w->scene.lo, w->scene.hi, &w->mem));
-  lights->memory = m;
+  lights->memory = light_set_cut(lights, w->scene.lo, w->scene.hi, &w->mem);
+  assert_non_null(lights->memory);
   return w;
 }
 
