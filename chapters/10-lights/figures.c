@@ -569,38 +569,52 @@ static stage *dim_room(output *o) {
   return s;
 }
 
-static image render_room(output *o, const stage *s, path_tracer *by, int spp) {
-  enum { W = 238, H = 160 };
-  camera_view v =
-      view_of((vec3){1.5f, 1.2f, 1.8f}, (vec3){-0.9f, 0.7f, -1}, 60, W, H);
-  integrator looks = path_integrator(by);
-  render_settings set = {
-      .width = W, .height = H, .spp = spp, .seed = by->seed, .by = &looks};
-  render_result r;
-  render_run(&r, &s->world, &v, &set, &o->mem, o->threads);
-  return r.color;
+// Boxes on a floor in a studio: a bright window of the map behind them, a faint
+// one at the right, and hardly anything else.
+static stage *studio(output *o) {
+  stage *s = stage_new(o, 64, 8);
+  uint32_t wall = add_material(s, (vec3){0.7f, 0.68f, 0.64f}, vec3_all(0));
+  uint32_t red = add_material(s, (vec3){0.65f, 0.2f, 0.15f}, vec3_all(0));
+  add_quad(s, (vec3){-4, 0, -4}, (vec3){0, 0, 8}, (vec3){8, 0, 0}, wall);
+  add_box(s, (vec3){-1.6f, 0, -1.4f}, (vec3){1.5f, 1.5f, 0.4f}, wall);
+  add_box(s, (vec3){0.2f, 0, -0.9f}, (vec3){0.5f, 0.8f, 0.5f}, red);
+  env *e = &s->scene.env;
+  *e = (env){.kind = ENV_MAP, .scale = 1, .map = image_new(&o->mem, 64, 32)};
+  for (int i = 0; i < 64 * 32; i++) {
+    int x = i % 64, y = i / 64;
+    bool back = x >= 26 && x < 33 && y >= 8 && y < 12;
+    bool right = x >= 46 && x < 48 && y >= 9 && y < 13;
+    e->map.pixels[i] = back    ? (vec3){60, 58, 54}
+                       : right ? (vec3){6, 6.5f, 8}
+                               : vec3_all(0.02f);
+  }
+  stage_ready(o, s);
+  return s;
 }
 
-// Eight samples that ask the tree, and eight that remember.
-static void draw_memory(output *o) {
-  stage *s = dim_room(o);
-  path_tracer by = {.world = &s->world, .lights = &s->lights, .seed = 1};
-  camera_view v =
-      view_of((vec3){1.5f, 1.2f, 1.8f}, (vec3){-0.9f, 0.7f, -1}, 60, 238, 160);
-  path_film lesson = {&v, 238, 160};
-  image parts[2] = {render_room(o, s, &by, 8)};
-  if (!path_learn(&s->lights, &by, &lesson, &o->mem, o->threads))
-    printf("nothing was learned\n");
-  parts[1] = render_room(o, s, &by, 8);
-  by.seed = 0;
-  image truth = render_room(o, s, &by, 128);
-  for (int i = 0; i < 2; i++) {
-    print_error(i == 0 ? "asking the tree" : "remembering", &parts[i], &truth,
-                o);
-    parts[i] = expose(parts[i], 0.4f);
-  }
-  image all = row_of(&o->mem, parts, 2);
-  publish(o->folder, "memory", all);
+enum { ROOM_WIDTH = 238, ROOM_HEIGHT = 160 };
+
+static camera_view room_view(void) {
+  return view_of((vec3){1.5f, 1.2f, 1.8f}, (vec3){-0.9f, 0.7f, -1}, 60,
+                 ROOM_WIDTH, ROOM_HEIGHT);
+}
+
+static camera_view studio_view(void) {
+  return view_of((vec3){0.6f, 1.2f, 1.7f}, (vec3){-0.35f, 0.4f, -1}, 50,
+                 ROOM_WIDTH, ROOM_HEIGHT);
+}
+
+static image render_room(output *o, const stage *s, const camera_view *v,
+                         path_tracer *by, int spp) {
+  integrator looks = path_integrator(by);
+  render_settings set = {.width = ROOM_WIDTH,
+                         .height = ROOM_HEIGHT,
+                         .spp = spp,
+                         .seed = by->seed,
+                         .by = &looks};
+  render_result r;
+  render_run(&r, &s->world, v, &set, &o->mem, o->threads);
+  return r.color;
 }
 
 // Two pictures side by side, and how far each is from the truth.
@@ -614,23 +628,37 @@ static void publish_pair(output *o, const char *file, image parts[2],
   publish(o->folder, file, row_of(&o->mem, parts, 2));
 }
 
+// Eight samples that ask the tree or the table, and eight that remember.
+static void draw_memory(output *o, stage *s, camera_view v, const char *file,
+                        float gain) {
+  path_tracer by = {.world = &s->world, .lights = &s->lights, .seed = 1};
+  path_film lesson = {&v, ROOM_WIDTH, ROOM_HEIGHT};
+  image parts[2] = {render_room(o, s, &v, &by, 8)};
+  if (!path_learn(&s->lights, &by, &lesson, &o->mem, o->threads))
+    printf("nothing was learned\n");
+  parts[1] = render_room(o, s, &v, &by, 8);
+  by.seed = 0;
+  image truth = render_room(o, s, &v, &by, 128);
+  const char *const names[] = {"without memory", "remembering"};
+  publish_pair(o, file, parts, names, &truth, gain);
+}
+
 // The same time of paths that walk alone and of such that share.
 static void draw_neighbours(output *o) {
   stage *s = dim_room(o);
   path_tracer by = {.world = &s->world, .lights = &s->lights, .seed = 1};
-  camera_view v =
-      view_of((vec3){1.5f, 1.2f, 1.8f}, (vec3){-0.9f, 0.7f, -1}, 60, 238, 160);
-  path_film all_of = {&v, 238, 160};
+  camera_view v = room_view();
+  path_film all_of = {&v, ROOM_WIDTH, ROOM_HEIGHT};
   path_learn(&s->lights, &by, &all_of, &o->mem, o->threads);
   double start = clock_seconds();
-  image parts[2] = {render_room(o, s, &by, 8)};
+  image parts[2] = {render_room(o, s, &v, &by, 8)};
   double alone = clock_seconds() - start;
   start = clock_seconds();
   if (share_learn(&by, &all_of, o->threads)) by.film = &all_of;
-  parts[1] = render_room(o, s, &by, 7);
+  parts[1] = render_room(o, s, &v, &by, 7);
   printf("alone %.2f s, shared %.2f s\n", alone, clock_seconds() - start);
   by.seed = 0;
-  image truth = render_room(o, s, &by, 128);
+  image truth = render_room(o, s, &v, &by, 128);
   const char *const names[] = {"alone", "shared"};
   publish_pair(o, "neighbours", parts, names, &truth, 0.4f);
 }
@@ -749,7 +777,8 @@ int main(int argc, char **argv) {
   draw_mistakes(&o);
   draw_many(&o);
   draw_shadow(&o);
-  draw_memory(&o);
+  draw_memory(&o, dim_room(&o), room_view(), "memory", 0.4f);
+  draw_memory(&o, studio(&o), studio_view(), "memory-sky", 0.5f);
   draw_glass(&o);
   draw_neighbours(&o);
   print_times(&o);
