@@ -151,7 +151,7 @@ static double noise_of(const outlook *o, uint32_t n, const double *p) {
 
 // The factor of the roots with which all of one question is dealt out.
 static double whole_question(const outlook *o, uint32_t n) {
-  double factor = INFINITY;
+  double factor = HUGE_VAL;
   for (bool again = true; again;) {
     double budget = 1, roots = 0, before = factor;
     for (uint32_t i = 0; i < n; i++) {
