@@ -48,27 +48,26 @@ bool light_set_any(const light_set *l) {
   return l->near.count > 0 || l->far_count > 0 || l->env.irradiance > 0;
 }
 
-// The powers of all parts; how many there are.
-static uint32_t cut_lights(light_set *l, float *power, arena *mem) {
-  l->sky.count = 0;
-  if (light_parts_of(&l->parts, &l->near, mem)) {
-    for (uint32_t i = 0; i < l->parts.count; i++)
-      power[i] = light_parts_power(&l->parts, i);
-    return l->parts.count;
-  }
-  if (l->near.count > 0) return 0;
-  if (!light_sky_of(&l->sky, &l->env, LIGHT_PARTS_MOST, mem)) return 0;
-  memcpy(power, l->sky.power, sizeof l->sky.power);
-  return l->sky.count;
-}
-
 light_memory *light_set_cut(light_set *l, vec3 lo, vec3 hi, arena *mem) {
   float power[LIGHT_PARTS_MOST];
-  uint32_t n = cut_lights(l, power, mem);
+  l->sky.count = 0;
+  if (!light_parts_of(&l->parts, &l->near, mem)) return NULL;
+  for (uint32_t i = 0; i < l->parts.count; i++)
+    power[i] = light_parts_power(&l->parts, i);
   light_memory *m = ARENA_NEW(mem, light_memory, 1);
-  if (n == 0 || !light_memory_new(m, power, n, lo, hi, mem)) return NULL;
+  if (!light_memory_new(m, power, l->parts.count, lo, hi, mem)) return NULL;
+  m->rest = l->env.rest + l->env.irradiance;
+  for (size_t i = 0; i < l->far_count; i++)
+    m->rest += l->far[i].power;
+  return m;
+}
+
+light_memory *light_set_cut_sky(light_set *l, vec3 lo, vec3 hi, arena *mem) {
+  light_memory *m = ARENA_NEW(mem, light_memory, 1);
+  light_sky *sky = &l->sky;
+  if (!light_sky_of(sky, &l->env, LIGHT_PARTS_MOST, mem)) return NULL;
+  if (!light_memory_new(m, sky->power, sky->count, lo, hi, mem)) return NULL;
   m->rest = l->env.rest;
-  if (l->sky.count == 0) m->rest += l->env.irradiance;
   for (size_t i = 0; i < l->far_count; i++)
     m->rest += l->far[i].power;
   return m;
@@ -116,6 +115,15 @@ typedef struct asked {
   float share;
 } asked;
 
+// Whether there is a memory, and of whom.
+static bool knows_sky(const light_set *l) {
+  return l->memory != NULL && l->sky.count > 0;
+}
+
+static bool knows_near(const light_set *l) {
+  return l->memory != NULL && l->sky.count == 0;
+}
+
 // A part that memory chooses.
 static bool remember(const light_set *l, const light_place *at, double u,
                      uint32_t *part, float *share) {
@@ -128,7 +136,7 @@ static bool choose_near(const light_set *l, const light_place *at, double u,
                         asked *out) {
   uint32_t i;
   *out = (asked){0};
-  if (l->memory == NULL) {
+  if (!knows_near(l)) {
     if (!light_tree_pick(&l->near, at, u, &i, &out->share)) return false;
   } else {
     if (!remember(l, at, u, &i, &out->share)) return false;
@@ -193,11 +201,6 @@ static bool sample_far(const light_set *l, const light_place *at, float sum,
     if (left < 0) break;
   }
   return out->pdf > 0;
-}
-
-// Whether memory is of the sky.
-static bool knows_sky(const light_set *l) {
-  return l->memory != NULL && l->sky.count > 0;
 }
 
 // The part of the environment to ask, if it has any; false: none.
@@ -300,7 +303,7 @@ float light_pdf_triangle(const light_set *l, vec3 p, vec3 n, uint32_t triangle,
   uint32_t i;
   if (!emitter_of(l, triangle, &i)) return 0;
   light_place at = light_place_of(p, n);
-  const light_memory *m = l->memory;
+  const light_memory *m = knows_near(l) ? l->memory : NULL;
   uint32_t part = m != NULL ? light_parts_at(&l->parts, i, q) : 0;
   float pdf = light_triangle_pdf(
       m != NULL ? &l->parts.of[part].shape : &l->near.emitters[i].shape, p, q);

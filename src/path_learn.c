@@ -25,7 +25,8 @@ typedef struct school_job {
   const path_tracer *by;
   const path_film *lesson;
   path_log *logs;
-  void **rooms;
+  void **rooms;            // NULL: not yet made
+  arena *mem;              // for them
   size_t paths, from, to;  // all of them; those of this lesson
 } school_job;
 
@@ -90,22 +91,13 @@ static void hold_lesson(school_job *job, size_t to, path_log *all,
   arena_free(&scratch);
 }
 
-static light_memory *new_memory(light_set *l, arena *mem) {
-  const mesh *m = &l->scene->mesh;
-  vec3 lo = vec3_all(INFINITY), hi = vec3_all(-INFINITY);
-  for (size_t i = 0; i < m->position_count; i++) {
-    lo = vec3_min(lo, m->positions[i]);
-    hi = vec3_max(hi, m->positions[i]);
-  }
-  return light_set_cut(l, lo, hi, mem);
-}
-
-static void make_rooms(school_job *job, arena *mem, const pool *threads) {
+static void make_rooms(school_job *job, const pool *threads) {
+  if (job->rooms != NULL) return;
   int n = threads == NULL ? 1 : pool_threads(threads);
   integrator by = path_integrator(job->by);
-  job->rooms = ARENA_NEW(mem, void *, (size_t)n);
+  job->rooms = ARENA_NEW(job->mem, void *, (size_t)n);
   for (int i = 0; i < n; i++)
-    job->rooms[i] = by.room(by.self, mem);
+    job->rooms[i] = by.room(by.self, job->mem);
 }
 
 // What a memory would be worth by the paths up to number `to`.
@@ -126,27 +118,45 @@ static bool pays(school_job *job, path_log *all, pool *threads) {
   return gain >= WORTH && all->count >= LEAST_RECORDS;
 }
 
-bool path_learn(light_set *lights, const path_tracer *by,
-                const path_film *lesson, arena *mem, pool *threads) {
-  light_memory *memory = new_memory(lights, mem);
+// One lesson, for a memory that has learned nothing.
+static bool study(light_set *lights, light_memory *memory, school_job *job,
+                  arena *mem, pool *threads) {
   if (memory == NULL) return false;
-  arena scratch = {0};
-  path_tracer pupil = *by;
-  pupil.questions = QUESTIONS;
-  school_job job = {.by = &pupil, .lesson = lesson};
-  job.paths = (size_t)lesson->width * (size_t)lesson->height / PIXELS_PER_PATH;
-  if (job.paths > MOST_PATHS) job.paths = MOST_PATHS;
-  job.paths -= job.paths % TRIAL_SHARE;
-  make_rooms(&job, &scratch, threads);
+  make_rooms(job, threads);
   path_log all = {0};
   lights->memory = memory;
-  if (pays(&job, &all, threads)) {
-    hold_lesson(&job, job.paths, &all, threads);
+  job->from = 0;
+  if (pays(job, &all, threads)) {
+    hold_lesson(job, job->paths, &all, threads);
     light_memory_learn(memory, all.items, all.count, mem);
   } else {
     lights->memory = NULL;
   }
   array_free(all.items);
-  arena_free(&scratch);
   return lights->memory != NULL;
+}
+
+bool path_learn(light_set *lights, const path_tracer *by,
+                const path_film *lesson, arena *mem, pool *threads) {
+  const mesh *m = &lights->scene->mesh;
+  vec3 lo = vec3_all(INFINITY), hi = vec3_all(-INFINITY);
+  for (size_t i = 0; i < m->position_count; i++) {
+    lo = vec3_min(lo, m->positions[i]);
+    hi = vec3_max(hi, m->positions[i]);
+  }
+  arena scratch = {0};
+  path_tracer pupil = *by;
+  pupil.questions = QUESTIONS;
+  school_job job = {.by = &pupil, .lesson = lesson, .mem = &scratch};
+  job.paths = (size_t)lesson->width * (size_t)lesson->height / PIXELS_PER_PATH;
+  if (job.paths > MOST_PATHS) job.paths = MOST_PATHS;
+  job.paths -= job.paths % TRIAL_SHARE;
+  light_memory *near = light_set_cut(lights, lo, hi, mem);
+  bool learned = study(lights, near, &job, mem, threads);
+  if (!learned) {
+    light_memory *sky = light_set_cut_sky(lights, lo, hi, mem);
+    learned = study(lights, sky, &job, mem, threads);
+  }
+  arena_free(&scratch);
+  return learned;
 }

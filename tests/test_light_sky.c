@@ -115,13 +115,20 @@ static void samples_of_parts_follow_their_density(void **state) {
 
 static const vec3 BLACK = {0, 0, 0};
 
+// Also with more lamps than memory is for: a ball of them.
+typedef enum lamps { NO_LAMPS, MANY_LAMPS } lamps;
+
 // A yard below a bright window of the sky, which a wall hides from most of it,
 // and a fainter one that all of it sees.
-static world *yard(void) {
+static world *yard(lamps lit) {
   world *w = world_new();
   w->materials[0] = world_material(MATERIAL_BLINN_PHONG, vec3_all(0.6f), BLACK);
   world_quad(w, (vec3){-2, 0, 2}, (vec3){4, 0, 0}, (vec3){0, 0, -4}, 0);
   world_quad(w, (vec3){-1, 0, 2}, (vec3){0, 0, -4}, (vec3){0, 3, 0}, 0);
+  w->materials[1] = world_material(MATERIAL_BLINN_PHONG, BLACK, BLACK);
+  w->materials[1].ke = vec3_all(2);
+  if (lit == MANY_LAMPS)
+    world_ball(w, (vec3){0.5f, 0.4f, -1}, 0.3f, 2, false, 1);
   env *e = &w->scene.env;
   *e = (env){.kind = ENV_MAP, .scale = 1, .map = image_new(&w->mem, 32, 16)};
   for (int i = 0; i < 32 * 16; i++) {
@@ -164,7 +171,7 @@ static double sum_density(const light_set *l, vec3 p, vec3 n) {
 // ask at all.
 static void densities_add_up_to_what_is_asked(void **state) {
   (void)state;
-  world *w = yard();
+  world *w = yard(NO_LAMPS);
   walker k;
   yard_walker(&k, w);
   assert_true(fabs(sum_density(&k.lights, BLACK, (vec3){0, 1, 0}) - 1) < 1e-3);
@@ -193,13 +200,13 @@ static void check_likeness(const render_result *a, const render_result *b,
 
 // The same picture with memory and without, and by chance alone; and much less
 // noise with it.
-static void memory_of_the_sky_helps(void **state) {
-  (void)state;
-  world *w = yard();
+static void check_help(lamps lit) {
+  world *w = yard(lit);
   walker k;
   yard_walker(&k, w);
   render_result plain = walker_draw(&k, 64, NULL);
   assert_true(learn(&k, NULL));
+  assert_true(k.lights.sky.count > 0);
   render_result knowing = walker_draw(&k, 64, NULL);
   render_result naive = walker_draw_naive(&k, 512, 5);
   check_likeness(&plain, &knowing, "without memory");
@@ -210,14 +217,25 @@ static void memory_of_the_sky_helps(void **state) {
   world_free(w);
 }
 
+static void memory_of_the_sky_helps(void **state) {
+  (void)state;
+  check_help(NO_LAMPS);
+}
+
+static void also_beside_lamps(void **state) {
+  (void)state;
+  check_help(MANY_LAMPS);
+}
+
 // Lies cost noise, but not light.
 static void lies_do_no_harm(void **state) {
   (void)state;
-  world *w = yard();
+  world *w = yard(NO_LAMPS);
   walker k;
   yard_walker(&k, w);
   render_result plain = walker_draw(&k, 64, NULL);
-  light_memory *m = light_set_cut(&k.lights, w->scene.lo, w->scene.hi, &w->mem);
+  light_memory *m =
+      light_set_cut_sky(&k.lights, w->scene.lo, w->scene.hi, &w->mem);
   assert_non_null(m);
   light_record records[600];
   for (uint32_t i = 0; i < 600; i++) {
@@ -234,7 +252,7 @@ static void lies_do_no_harm(void **state) {
 
 static void same_memory(void **state) {
   (void)state;
-  world *w = yard();
+  world *w = yard(NO_LAMPS);
   assert_same_lesson(w, yard_walker, learn);
   world_free(w);
 }
@@ -242,7 +260,7 @@ static void same_memory(void **state) {
 // Where all see the same sky, nothing is remembered.
 static void nothing_to_remember(void **state) {
   (void)state;
-  world *w = yard();
+  world *w = yard(NO_LAMPS);
   w->scene.mesh.triangle_count = 2;
   world_ready(w, 0);
   walker k;
@@ -257,6 +275,7 @@ int main(void) {
       cmocka_unit_test(samples_of_parts_follow_their_density),
       cmocka_unit_test(densities_add_up_to_what_is_asked),
       cmocka_unit_test(memory_of_the_sky_helps),
+      cmocka_unit_test(also_beside_lamps),
       cmocka_unit_test(lies_do_no_harm),
       cmocka_unit_test(same_memory),
       cmocka_unit_test(nothing_to_remember),
