@@ -209,7 +209,7 @@ static bool hop(wave *w, uint32_t which, const path_ready *v, int i, ray *r) {
   path *p = &w->paths[which];
   const path_world *world = w->by->world;
   if (world->max_depth > 0 && p->segment >= world->max_depth) return false;
-  if (v->lit) {
+  if (v->lit && v->matt[i]) {
     stop s = {.which = which, .ready = v, .lane = i, .lit = true};
     ask_light(w, &s, NULL, 1);
   }
@@ -220,7 +220,7 @@ static bool hop(wave *w, uint32_t which, const path_ready *v, int i, ray *r) {
   p->from = lanes_at(&v->p, i);
   p->from_n = lanes_at(&v->n, i);
   p->pdf = v->leave_pdf[i];
-  p->inside = 0;
+  p->inside = v->held[i] ? p->inside + 1 : 0;
   p->segment++;
   *r = ray_from(lanes_at(&v->from, i), lanes_at(&v->leave, i));
   return goes_on(w, true);
@@ -249,10 +249,13 @@ static bool step_one(wave *w, size_t i, ray *r, uint32_t *left) {
   met *m = w->met;
   const path_ready *v = &m->ready[i / LANES];
   int lane = (int)(i % LANES);
-  if (v->plain[lane]) {
+  int inside = v->held[lane] * w->paths[m->which[i]].inside;
+  if (v->plain[lane] && inside < VERTEX_TRAPPED_AFTER) {
     *left = v->left[lane];
     return hop(w, m->which[i], v, lane, r);
   }
+  if (v->plain[lane])
+    m->at[i] = vertex_at(w->by->world->scene, &m->hits[i], m->rays[i].d);
   stop s = path_ready_stop(&m->at[i], v, lane);
   s.which = m->which[i];
   *r = m->rays[i];

@@ -10,24 +10,6 @@ static void fetch_memory(const light_set *l, const vertex *at, size_t n) {
     light_memory_fetch(m, light_memory_key(m, at[i].at.p, at[i].ns));
 }
 
-static bool has_maps(const material *m) {
-  return m->map_kd.image != NULL || m->map_bump.image != NULL ||
-         m->map_norm.image != NULL;
-}
-
-const path_plain *path_ready_plain(const scene *s, arena *mem) {
-  if (s->material_of == NULL || s->mesh.colors != NULL) return NULL;
-  path_plain *all = ARENA_NEW(mem, path_plain, s->material_count);
-  for (size_t i = 0; i < s->material_count; i++) {
-    const material *m = &s->materials[i];
-    surface any = {.color = vec3_all(1), .material = m};
-    if (!matter_matt(&any) || has_maps(m)) continue;
-    if (m->passes || vec3_peak(m->ke) > 0) continue;
-    all[i] = (path_plain){matter_choose(NULL, &any, 1, 0).bsdf.kd, true};
-  }
-  return all;
-}
-
 void path_ready_alone(const ready_job *j, size_t n) {
   for (size_t i = 0; i < n; i++) {
     path_ready *r = &j->ready[i / LANES];
@@ -36,7 +18,7 @@ void path_ready_alone(const ready_job *j, size_t n) {
     sampler_8(&j->numbers[i], j->dimension, u);
     for (int k = 0; k < USES; k++)
       r->u[k][i % LANES] = u[k];
-    r->matt[i % LANES] = r->plain[i % LANES] = 0;
+    r->matt[i % LANES] = r->plain[i % LANES] = r->held[i % LANES] = 0;
   }
   fetch_memory(j->lights, j->at, n);
 }

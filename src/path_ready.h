@@ -6,6 +6,7 @@
 
 #include "lanes.h"
 #include "light.h"
+#include "path_plain.h"
 #include "path_world.h"
 #include "sampler.h"
 #include "vertex.h"
@@ -28,7 +29,8 @@ enum {
 typedef struct path_ready {
   float u[USES][LANES];
   int32_t matt[LANES];
-  int32_t plain[LANES];  // also path_plain: its vertex was not written down
+  int32_t plain[LANES];  // plain_kind: whose vertex was not written down
+  int32_t held[LANES];   // glass that reflects inwards
   lanes3 p, n;           // the point and the normal that scatters
   lanes3 kd, from;       // albedo; where rays leave
   bool lit;              // whether lights were asked
@@ -42,13 +44,6 @@ typedef struct path_ready {
   float leave_pdf[LANES];
   uint32_t left[LANES];  // the triangle that this ray climbs away from
 } path_ready;
-
-// Whether a material is matt and nothing else, the same everywhere: opaque,
-// dark, without maps.  Then its albedo.
-typedef struct path_plain {
-  vec3 kd;
-  bool is;
-} path_plain;
 
 // A vertex of a path, the numbers for it, and a lane where more is known.
 typedef struct stop {
@@ -75,9 +70,6 @@ typedef struct ready_job {
 } ready_job;
 
 typedef void ready_function(const ready_job *j, size_t n);
-
-// By material of a scene, in mem; NULL where colours are the corners'.
-const path_plain *path_ready_plain(const scene *s, arena *mem);
 
 // One by one, and none of them matt.
 void path_ready_alone(const ready_job *j, size_t n);

@@ -15,7 +15,7 @@ wave *wave_room(const path_tracer *by, arena *mem) {
   w->blocked = ARENA_NEW(mem, bool, m);
   w->met = ARENA_NEW(mem, met, 1);
   w->missed = ARENA_NEW(mem, missed, 1);
-  w->plain = path_ready_plain(by->world->scene, mem);
+  w->plain = path_plains(by->world->scene, mem);
   if (by->aim != NULL) w->aims = path_aims_room(mem);
   if (by->film != NULL) w->shares = ARENA_NEW(mem, path_shares, 1);
   return w;

@@ -4,6 +4,7 @@
 #define READY_KERNEL_H
 
 #include "light_emission.h"
+#include "ready_clear.h"
 #include "ready_lane.h"
 #include "ready_leave.h"
 #include "ready_numbers.h"
@@ -69,17 +70,20 @@ static inline void ready_run(ready_work *w, const ready_job *j, size_t from,
   if (m != NULL) ready_fetch(w, m);
   ready_draw(w, j, from, n);
   ready_from(w);
-  for (int i = 0; i < n; i++) {
-    w->r.plain[i] = lane_plain(w, i, j, from + (size_t)i);
-    if (!w->r.plain[i]) lane_finish(w, i, j, from + (size_t)i);
-  }
+  w->clear = 0;
+  for (int i = 0; i < n; i++)
+    if (!lane_plain(w, i, j, from + (size_t)i))
+      lane_finish(w, i, j, from + (size_t)i);
   for (int i = n; i < LANES; i++)
-    w->r.matt[i] = 0;
+    w->r.matt[i] = w->r.plain[i] = 0;
   if (j->lights != NULL) ready_lights(w, j->lights);
   ready_leave(w);
+  memcpy(w->sure, w->r.matt, sizeof w->sure);
+  memset(w->r.held, 0, sizeof w->r.held);
+  if (w->clear) ready_clear_all(w);
   w->r.p = w->v.p;
   for (int i = 0; i < n; i++)
-    if (w->r.plain[i] & !w->r.matt[i]) lane_alone(w, i, j, from + (size_t)i);
+    if (w->r.plain[i] && !w->sure[i]) lane_alone(w, i, j, from + (size_t)i);
 }
 
 static void ready_kernel(const ready_job *j, size_t n) {

@@ -38,16 +38,21 @@ static inline void lane_finish(ready_work *w, int i, const ready_job *j,
 // Whether nobody needs to see the vertex of lane i.
 static inline bool lane_plain(ready_work *w, int i, const ready_job *j,
                               size_t at) {
+  w->r.plain[i] = PLAIN_NOT;
+  w->eta[i] = 1;
   if (j->plain == NULL || w->v.odd[i] || !w->r.matt[i]) return false;
   const path_plain *m = &j->plain[j->scene->material_of[j->hits[at].triangle]];
-  lanes_set(&w->r.kd, i, m->kd);
-  return m->is;
+  lanes_set(&w->r.kd, i, m->albedo);
+  w->r.plain[i] = (int32_t)m->kind;
+  w->eta[i] = m->eta;
+  if (m->kind > PLAIN_MATT) w->r.matt[i] = 0, w->clear = 1;
+  return m->kind != PLAIN_NOT;
 }
 
 // One that was thought to be plain.
 static inline void lane_alone(ready_work *w, int i, const ready_job *j,
                               size_t at) {
-  w->r.plain[i] = 0;
+  w->r.plain[i] = PLAIN_NOT;
   j->at[at] = vertex_at(j->scene, &j->hits[at], j->rays[at].d);
 }
 

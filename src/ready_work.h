@@ -32,6 +32,9 @@ typedef struct ready_work {
   lanes3 t, b, ng;  // turned to wo's side, as r.n is
   uint32_t key_lo[LANES], key_hi[LANES], index[LANES];
   uint32_t cell[LANES], triangle[LANES];
+  int32_t clear;        // whether any is a plain mirror or glass
+  float eta[LANES];     // of plain glass, else 1
+  int32_t sure[LANES];  // whether a plain one is as it was thought to be
   ready_light light;
   ready_view view;
 } ready_work;

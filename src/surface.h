@@ -52,6 +52,10 @@ ray surface_ray_to(const surface *s, vec3 q, bool smooth);
 // Unit; n, or, where that leans too far from ng, as near to n as is allowed.
 vec3 surface_lean(vec3 n, vec3 ng);
 
+// A bent mirror direction clears the facet by this much, as a cosine, or by
+// half of what wo itself does when that is less.
+#define SURFACE_CLEARANCE 0.01f
+
 // ns bent towards ng just as far as it takes for the mirror direction of wo
 // about it to lie on wo's side of the facet.  All unit, wo on ng's side after
 // flipping.  wo . result > 0 when wo . ng > 0.

@@ -16,10 +16,6 @@ vec3 surface_lean(vec3 n, vec3 ng) {
   return vec3_unit(vec3_mad(vec3_unit(across), LEAN_MIN, ng));
 }
 
-// A bent mirror direction clears the facet by this much, as a cosine, or by
-// half of what wo itself does when that is less.
-#define CLEARANCE 0.01f
-
 // Let n = ns + s ng, with a = wo.ns, b = wo.ng, c = ns.ng.  The cosine of the
 // mirror direction, 2 (wo.n)(n.ng) / n.n - b, is t where
 //   (b - t) s^2 + 2 (a - c t) s + (2 a c - b - t) = 0.
@@ -29,7 +25,7 @@ vec3 surface_lean(vec3 n, vec3 ng) {
 vec3 surface_bend(vec3 ns, vec3 ng, vec3 wo) {
   float a = vec3_dot(wo, ns), b = vec3_dot(wo, ng), c = vec3_dot(ns, ng);
   if (!(b > 0)) return ng;
-  float t = float_min(0.5f * b, CLEARANCE);
+  float t = float_min(0.5f * b, SURFACE_CLEARANCE);
   float last = 2 * a * c - b - t;
   if (last >= 0) return ns;
   float half = a - c * t;

@@ -102,6 +102,26 @@ static void check_leave(const vertex *v, const bsdf *b, const float *u,
   assert_float(d.pdf, r->leave_pdf[i]);
 }
 
+// What a plain mirror or glass does.
+static void check_clear(const vertex *v, const bsdf *b, const float *u,
+                        const path_ready *r, int i) {
+  bsdf_sample d;
+  int inside = 0;
+  assert_true(bsdf_sample_wi(b, vertex_local(v, v->wo), u[USE_LOBE], 0, 0, &d));
+  ray next = vertex_leave(v, b, &d, (vec3){0, 0, 0}, &inside);
+  assert_int_equal(r->plain[i],
+                   b->kind == BSDF_GLASS ? PLAIN_GLASS : PLAIN_MIRROR);
+  assert_vec3(v->at.p, lanes_at(&r->p, i));
+  assert_vec3(v->n, lanes_at(&r->n, i));
+  assert_vec3(next.o, lanes_at(&r->from, i));
+  assert_vec3(next.d, lanes_at(&r->leave, i));
+  assert_vec3(d.weight, lanes_at(&r->weight, i));
+  assert_float(0, r->leave_pdf[i]);
+  assert_int_equal(inside, r->held[i]);
+  bool climbs = ray_climbs(next.d, v->at.ng);
+  assert_int_equal(climbs ? v->at.triangle : HIT_NONE, r->left[i]);
+}
+
 // What was written down of a vertex, with the frame where it is matt.
 static void check_vertex(const vertex *ready, const vertex *v, bool matt) {
   assert_vec3(ready->at.p, v->at.p);
@@ -113,7 +133,7 @@ static void check_vertex(const vertex *ready, const vertex *v, bool matt) {
 }
 
 typedef struct counts {
-  int lambert, matt, plain, lit;
+  int lambert, matt, plain, lit, delta, clear, held;
 } counts;
 
 static void check_one(const ready_job *j, size_t k, const dfg *table,
@@ -127,12 +147,18 @@ static void check_one(const ready_job *j, size_t k, const dfg *table,
   vertex v = vertex_at(j->scene, &j->hits[k], j->rays[k].d);
   matter m = vertex_matter(&v, table, u[USE_MATTER]);
   bool plain = j->plain != NULL && v.at.material == j->scene->materials;
-  assert_int_equal(r->plain[i] != 0, plain && r->matt[i]);
+  bool delta = bsdf_is_delta(&m.bsdf), clear = delta && r->plain[i];
+  assert_int_equal(r->plain[i] == PLAIN_MATT, plain && r->matt[i]);
   if (!r->plain[i]) check_vertex(&j->at[k], &v, r->matt[i]);
+  if (clear) check_clear(&v, &m.bsdf, u, r, i);
   c->lambert += m.bsdf.kind == BSDF_LAMBERT;
+  c->delta += delta && j->plain != NULL;
+  c->clear += clear;
+  c->held += clear && r->held[i];
   if (!r->matt[i]) return;
   c->matt++;
   c->plain += plain;
+  assert_int_equal(0, r->held[i]);
   check_leave(&v, &m.bsdf, u, r, i);
   if (j->lights != NULL) c->lit += check_light(j->lights, &v, u, r, i);
 }
@@ -173,8 +199,7 @@ static void ready_is_alone(void **unused) {
     light_set lights;
     world *w = new_world(k % 2, k<4, k> 4, false, &lights);
     counts c = {0};
-    const path_plain *plain =
-        k % 2 ? path_ready_plain(&w->scene, &w->mem) : NULL;
+    const path_plain *plain = k % 2 ? path_plains(&w->scene, &w->mem) : NULL;
     assert_int_equal(k > 4, lights.near.nodes[0].count > 0);
     int levels = 0;
     for (int level = 0; level < WIDE_LEVELS; level++) {
@@ -189,6 +214,8 @@ static void ready_is_alone(void **unused) {
     assert_true(c.matt > 1000 * levels);
     assert_true(c.matt > c.lambert * 9 / 10);
     assert_true(plain == NULL || c.plain > c.matt / 4);
+    print_message("# %d of %d clear, %d held\n", c.clear, c.delta, c.held);
+    assert_true(c.clear >= c.delta * 3 / 4 && (plain == NULL || c.held > 0));
     assert_true(k == 3 || c.lit > 300 * levels);
     world_free(w);
   }
@@ -231,6 +258,41 @@ static void paths_are_alone(void **unused) {
     }
     world_free(w);
   }
+}
+
+// Paths in a ball of glass, of which some are held so often that they have to
+// go straight on.
+static void glass_holds(void **unused) {
+  (void)unused;
+  enum { SIDE = 32, STARTS = SIDE * SIDE, SAMPLES = 16 };
+  light_set lights;
+  world *w = new_world(true, false, true, true, &lights);
+  camera_view view =
+      world_view((vec3){0, -1, 2}, (vec3){0, -1, 0}, 26, SIDE, SIDE);
+  path_start starts[STARTS];
+  vec3 alone[STARTS], out[STARTS];
+  path_stats stats = {0};
+  path_tracer walker = {.world = &w->path, .lights = &lights};
+  integrator by = path_integrator(&walker);
+  void *room = by.room(by.self, &w->mem);
+  w->materials[1].ke = vec3_all(0);
+  w->materials[6].passes = false;
+  w->scene.env = (env){.kind = ENV_CONSTANT, .scale = 1, .constant = {1, 2, 3}};
+  light_set_build(&lights, &w->scene, false, false, &w->mem, NULL);
+  for (uint32_t k = 0; k < SAMPLES; k++) {
+    for (uint32_t i = 0; i < STARTS; i++)
+      starts[i] = (path_start){
+          camera_ray(&view, (float)(i % SIDE) + 0.5f, (float)(i / SIDE) + 0.5f),
+          i, k};
+    walker.ready = NULL;
+    by.radiance(by.self, starts, STARTS, alone, &stats, room);
+    walker.ready = ready_best();
+    by.radiance(by.self, starts, STARTS, out, &stats, room);
+    assert_memory_equal(alone, out, sizeof out);
+  }
+  print_message("# %.1f rays a path\n",
+                (double)stats.rays / (double)stats.followed);
+  world_free(w);
 }
 
 static void assert_same_start(const path_start *a, const path_start *b) {
@@ -286,9 +348,8 @@ static void no_branches(void **unused) {
 
 int main(void) {
   const struct CMUnitTest tests[] = {
-      cmocka_unit_test(ready_is_alone),
-      cmocka_unit_test(paths_are_alone),
-      cmocka_unit_test(rows_are_alone),
+      cmocka_unit_test(ready_is_alone), cmocka_unit_test(paths_are_alone),
+      cmocka_unit_test(glass_holds),    cmocka_unit_test(rows_are_alone),
       cmocka_unit_test(no_branches),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
