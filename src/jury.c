@@ -180,8 +180,10 @@ static halves_estimate ask(jury *j, const halves *h, double *terms,
   for (size_t i = 0; i < c.seat_count; i++)
     j->samples += c.seats[i].count;
   const seat *end = c.seats + c.seat_count;
-  for (const seat *s = c.seats; s < end; j->pixels++)
-    terms[s->pixel] = term_of(h, &s, end);
+  for (const seat *s = c.seats; s < end; j->pixels++) {
+    size_t pixel = s->pixel;
+    terms[pixel] = term_of(h, &s, end);
+  }
   is = judge(terms, pixels, sum, is);
   arena_free(&scratch);
   return is;
