@@ -56,8 +56,8 @@ CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
               light_emission light lanes path_plain path_ready aim path_aim path_log path_group path_share path_tracer path_wave path path_learn share_learn \
               aim_photon aim_build aim_learn
 CHAPTER_11 := $(CHAPTER_10) lean raster_lean
-CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_split \
-             simd_base simd_avx2 simd simd_lanes simd_squeeze wide_cost wide_tree wide_faces wide_above wide_below wide_levels wide_box wide_columns wide_ready wide_packet wide_edges wide_tests wide_distance wide_leaf wide_single wide_push \
+CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_split wide_cost bvh_bundle bvh_shared \
+             simd_base simd_avx2 simd simd_lanes simd_squeeze wide_tree wide_faces wide_above wide_below wide_levels wide_box wide_columns wide_ready wide_packet wide_edges wide_tests wide_distance wide_leaf wide_single wide_push \
              wide_alike wide_gather wide_interval wide_packet_leaf \
              wide_descent wide_flight wide_pending wide_steps wide_start wide_stream wide_crowd wide_crowd_ready wide_part wide_crowd_settle wide_crowd_leaf wide_together wide_kernel wide_base wide_avx2 wide_avx512 wide wide_patch \
              vertex_lanes vertex_lanes_facet vertex_lanes_smooth vertex_lanes_find \

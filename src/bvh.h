@@ -20,13 +20,15 @@ typedef struct bvh_node {
 // How nodes are split: where the surface area heuristic expects the least
 // work, asking at up to 31, 15 or 7 places an axis; or through the middle of
 // the longest side.  Coarse: as the first, but a few triangles stay together,
-// for trees that test the triangles of a leaf at once.
+// for trees that test the triangles of a leaf at once.  Ones: as the first, but
+// until one is left, for trees over what is not to be parted.
 typedef enum bvh_method {
   BVH_SAH,
   BVH_MEDIAN,
   BVH_SAH_16,
   BVH_SAH_8,
-  BVH_COARSE
+  BVH_COARSE,
+  BVH_ONES
 } bvh_method;
 
 // No leaf lies deeper, whatever the input; the root has depth 0.  No leaf
@@ -43,7 +45,12 @@ typedef struct bvh {
   uint32_t node_count;
   uint32_t *order;  // triangle numbers in leaf order
   uint32_t refs;    // how many: kept, or more where leaves share triangles
+  uint32_t parts;   // leaves hold so many parts more than there are wholes
   uint32_t kept, dropped;
+  // Where leaves share triangles: bundle i, all of a leaf, is those of order
+  // from bundles[i] to bundles[i + 1] - 1; otherwise NULL.
+  uint32_t *bundles;
+  uint32_t bundle_count;
   int depth;
   double cost;      // SAH cost, in triangle tests per random ray
   double cut_rays;  // more rays repay cutting triangles; see bvh_split.h

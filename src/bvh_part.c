@@ -49,6 +49,7 @@ bool bvh_cut_choose(bvh_cut *cut, const bvh_part *p, const sah_bins *bins,
   double area = sah_half_area(&p->box);
   if (cut->grid.bins > 0)
     cut->split = sah_best_split(bins, &cut->grid, &p->box);
+  if (method == BVH_ONES) return n > 1;
   if (n > BVH_MAX_LEAF) return true;
   return cut->split.axis >= 0 && cut->split.cost < area * n;
 }

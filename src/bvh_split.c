@@ -317,6 +317,7 @@ void bvh_split_build(bvh *out, const bvh *mesh, double rays, arena *mem,
     make_room(&b, root.room_end, &refs, &scratch);
     build_top(&b, &root);
     build_tasks(&b, mem, &refs, &scratch);
+    out->parts = out->refs - out->kept;
     out->cost = bvh_cost(out);
   } else {
     bvh_source from = {b.shop.refs[0], root.part, BVH_COARSE, &refs};

@@ -152,7 +152,7 @@ static void print_rays(const rays_run *r, size_t repeat) {
   json_count(&j, "threads", (unsigned long long)pool_threads(r->threads));
   json_number(&j, "build_seconds", r->build_seconds);
   json_number(&j, "sah_cost", r->tree.binary.cost);
-  json_count(&j, "parts", r->tree.binary.refs - r->tree.binary.kept);
+  json_count(&j, "parts", r->tree.binary.parts);
   json_count(&j, "depth", (unsigned long long)tree_depth(r));
   json_number(&j, "bytes_per_triangle", bytes_per_triangle(r));
   json_number(&j, "seconds", r->trace_seconds);

@@ -2,6 +2,7 @@
 
 #include "cmd_tree.h"
 
+#include "bvh_shared.h"
 #include "clock.h"
 #include "wide_patch.h"
 
@@ -30,7 +31,7 @@ static void build_binary(cmd_tree *t, long long word, const mesh *m, arena *mem,
   bvh of = mesh_as_bvh(m);
   if (word == TREE_AUTO || word == TREE_HIGH) {
     double rays = word == TREE_HIGH ? HUGE_VAL : t->rays;
-    bvh_split_build(&t->binary, &of, rays, mem, threads);
+    bvh_shared_build(&t->binary, &of, rays, mem, threads);
     return;
   }
   bool coarse = word == TREE_WIDE || word == TREE_FAST;
@@ -129,7 +130,7 @@ void cmd_tree_json(json *j, const cmd_tree *t) {
   json_count(j, "nodes", wide ? t->wide.node_count : t->binary.node_count);
   json_count(j, "binary_nodes", t->binary.node_count);
   json_number(j, "cost", t->binary.cost);
-  json_count(j, "parts", t->binary.refs - t->binary.kept);
+  json_count(j, "parts", t->binary.parts);
   json_number(j, "rays_expected", t->rays);
   json_flag(j, "patches", t->wide.patch != NULL);
   int depth = wide ? t->wide.depth : t->binary.depth;

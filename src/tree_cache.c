@@ -8,7 +8,7 @@
 
 // Another number when a builder makes another tree, or nodes or triangles are
 // laid out in another way: old files are then ignored.
-enum { VERSION = 3 };
+enum { VERSION = 4 };
 
 static const char KIND[] = "tree";
 
@@ -18,7 +18,7 @@ typedef struct tree_facts {
   float lo[4], hi[4];
   double large, cost, cut_rays;
   uint64_t nodes, triangles, depth;
-  uint64_t binary_nodes, refs, kept, dropped, binary_depth;
+  uint64_t binary_nodes, refs, parts, kept, dropped, binary_depth;
   uint64_t looked_for, patches;
 } tree_facts;
 
@@ -31,6 +31,7 @@ static tree_facts facts_of(const wide_tree *t, const bvh *b) {
                   .depth = (uint64_t)t->depth,
                   .binary_nodes = b->node_count,
                   .refs = b->refs,
+                  .parts = b->parts,
                   .kept = b->kept,
                   .dropped = b->dropped,
                   .binary_depth = (uint64_t)b->depth,
@@ -54,6 +55,7 @@ static void set_facts(wide_tree *t, bvh *b, const tree_facts *f) {
   b->cut_rays = f->cut_rays;
   b->node_count = (uint32_t)f->binary_nodes;
   b->refs = (uint32_t)f->refs;
+  b->parts = (uint32_t)f->parts;
   b->kept = (uint32_t)f->kept;
   b->dropped = (uint32_t)f->dropped;
   b->depth = (int)f->binary_depth;

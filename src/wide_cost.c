@@ -59,7 +59,7 @@ static void find_cost(const cost_job *job, uint32_t node) {
   c->below = l->below + r->below;
   c->of[WIDE - 1] = share_places(l, r, WIDE, &left);
   c->of[0] = area + c->of[WIDE - 1];
-  if (c->below <= WIDE_LEAF)
+  if (c->below <= WIDE_LEAF && job->b->bundles == NULL)
     c->of[0] = fminf(c->of[0], leaf_cost(area, c->below));
   for (int i = 1; i < WIDE - 1; i++)
     c->of[i] = fminf(c->of[i - 1], share_places(l, r, i + 1, &left));
@@ -126,7 +126,7 @@ const wide_cost *wide_costs_of(const bvh *b, arena *mem, pool *threads) {
 bool wide_is_leaf(const bvh *b, const wide_cost *costs, uint32_t node) {
   const wide_cost *c = &costs[node];
   if (b->nodes[node].count > 0) return true;
-  if (c->below > WIDE_LEAF) return false;
+  if (c->below > WIDE_LEAF || b->bundles != NULL) return false;
   const bvh_node *root = &b->nodes[0];
   float area = area_of(b, aabb_half_area((aabb){root->lo, root->hi}), node);
   return leaf_cost(area, c->below) <= area + c->of[WIDE - 1];

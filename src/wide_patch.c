@@ -17,6 +17,7 @@ typedef struct patch_search {
   const wide_tree *t;
   const wide_level *level;
   uint32_t *parent, *patch;
+  uint32_t *place;      // by first triangle of a leaf: the last child it is
   uint32_t every;       // which chunks: of so many one
   uint32_t *levels;     // by chunk: how far patches are above their leaves
   uint32_t *triangles;  // and how many there are
@@ -32,6 +33,7 @@ static void search_chunk(void *context, size_t item, int worker) {
     const wide_node *w = &s->t->nodes[i];
     for (uint32_t k = 0; k < WIDE; k++) {
       if ((w->valid >> k & 1) == 0 || !(w->child[k] & WIDE_LEAF_BIT)) continue;
+      if (s->place[wide_leaf_first(w->child[k])] != WIDE * i + k) continue;
       const wide_leaf_place at = {s->parent, i, w->child[k], s->unsure};
       levels +=
           s->level->patches(s->t, &at, s->patch + wide_leaf_first(w->child[k]));
@@ -57,15 +59,21 @@ static bool search(patch_search *s, uint32_t every, float far, pool *threads) {
   return (float)levels >= far * (float)triangles;
 }
 
-static void find_parents(uint32_t *parent, const wide_tree *t) {
+// A leaf may be the child of many: it is looked at as one of them.
+static void find_places(const patch_search *s) {
+  const wide_tree *t = s->t;
   for (uint32_t i = 0; i < t->node_count; i++)
-    for (uint32_t k = 0; k < WIDE; k++)
-      if (t->nodes[i].valid >> k & 1 && !(t->nodes[i].child[k] & WIDE_LEAF_BIT))
-        parent[t->nodes[i].child[k]] = i;
+    for (uint32_t k = 0; k < WIDE; k++) {
+      uint32_t child = t->nodes[i].child[k];
+      if ((t->nodes[i].valid >> k & 1) == 0) continue;
+      if (child & WIDE_LEAF_BIT)
+        s->place[wide_leaf_first(child)] = WIDE * i + k;
+      else
+        s->parent[child] = i;
+    }
 }
 
-// The patch by number of a triangle, which may be in many leaves: that of the
-// last.
+// The patch by number of a triangle.
 static uint32_t *order_patches(const patch_search *s, arena *mem) {
   const wide_tree *t = s->t;
   uint32_t *out = ARENA_NEW(mem, uint32_t, t->patch_count);
@@ -91,13 +99,14 @@ void wide_patches_find(wide_tree *t, uint32_t triangles, arena *mem,
   size_t chunks = t->node_count / CHUNK + 1;
   s.parent = ARENA_NEW(&scratch, uint32_t, t->node_count);
   s.patch = ARENA_NEW(&scratch, uint32_t, t->triangle_count);
+  s.place = ARENA_NEW(&scratch, uint32_t, t->triangle_count);
   s.levels = ARENA_NEW(&scratch, uint32_t, chunks);
   s.triangles = ARENA_NEW(&scratch, uint32_t, chunks);
   float reach = 0;
   for (int k = 0; k < 3; k++)
     reach = float_max(reach, float_max(fabsf(t->lo[k]), fabsf(t->hi[k])));
   s.unsure = 0x1p-19f * reach;
-  find_parents(s.parent, t);
+  find_places(&s);
   if (search(&s, SAMPLE, 1.5f, threads) && search(&s, 1, 2, threads)) {
     t->patch_count = triangles;
     t->patch = order_patches(&s, mem);

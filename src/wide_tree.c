@@ -13,11 +13,11 @@ typedef struct collapse_item {
   int depth;
 } collapse_item;
 
-// A part of the tree, made by one thread: its root, where its other nodes and
-// its triangles go next, and the deepest node so far.
+// A part of the tree, made by one thread: its root, where its other nodes go
+// next, and the deepest node so far.
 typedef struct collapse_part {
   collapse_item root;
-  uint32_t next_node, next_triangle;
+  uint32_t next_node;
   int depth;
 } collapse_part;
 
@@ -26,6 +26,9 @@ enum { ITEMS = (WIDE - 1) * BVH_MAX_DEPTH + 1 };
 
 // Whatever holds more than 1 / PARTS of the triangles is above the parts.
 enum { PARTS = 64, ABOVE = PARTS * BVH_MAX_DEPTH };
+
+// So many bundles are copied in one go.
+enum { BUNDLES = 1024 };
 
 // What collapsing has at hand.
 typedef struct collapse {
@@ -79,20 +82,11 @@ static void quantise_axis(wide_node *w, int k, uint32_t i, float lo, float hi) {
   w->plane[k][1][i] = (uint8_t)q;
 }
 
-// Copy the triangles below a binary node to the tree and return their child.
-static uint32_t write_leaf(const collapse *c, collapse_part *p, uint32_t from) {
-  uint32_t list[WIDE_LEAF], n = 0, stack[WIDE_LEAF + 1], top = 0;
-  stack[top++] = from;
-  while (top > 0) {
-    const bvh_node *node = &c->b->nodes[stack[--top]];
-    if (node->count == 0) {
-      stack[top++] = node->first + 1;
-      stack[top++] = node->first;
-    }
-    for (uint32_t i = 0; i < node->count; i++)
-      list[n++] = c->b->order[node->first + i];
-  }
-  uint32_t *to = c->out->triangles + 10 * (size_t)p->next_triangle;
+// Copy n triangles of a leaf from `first` of the order to the same place of the
+// tree.
+static void write_triangles(const collapse *c, uint32_t first, uint32_t n) {
+  const uint32_t *list = c->b->order + first;
+  uint32_t *to = c->out->triangles + 10 * (size_t)first;
   for (uint32_t i = 0; i < n; i++) {
     const uint32_t *v = c->b->index + 3 * (size_t)list[i];
     for (uint32_t k = 0; k < 3; k++) {
@@ -103,9 +97,26 @@ static uint32_t write_leaf(const collapse *c, collapse_part *p, uint32_t from) {
     }
     to[9 * n + i] = list[i];
   }
-  uint32_t child = WIDE_LEAF_BIT | (n - 1) << 28 | p->next_triangle;
-  p->next_triangle += n;
-  return child;
+}
+
+// The child for all triangles below a binary node, which follow each other in
+// the order.
+static uint32_t write_leaf(const collapse *c, uint32_t from) {
+  const bvh_node *node = &c->b->nodes[from];
+  while (node->count == 0)
+    node = &c->b->nodes[node->first];
+  uint32_t n = c->costs[from].below, first = node->first;
+  if (c->b->bundles == NULL) write_triangles(c, first, n);
+  return WIDE_LEAF_BIT | (n - 1) << 28 | first;
+}
+
+// Leaves that are shared are copied once.
+static void write_bundles(void *context, size_t item, int worker) {
+  (void)worker;
+  const collapse *c = context;
+  const uint32_t *first = c->b->bundles, begin = (uint32_t)item * BUNDLES;
+  for (uint32_t i = begin; i < c->b->bundle_count && i - begin < BUNDLES; i++)
+    write_triangles(c, first[i], first[i + 1] - first[i]);
 }
 
 // Make the wide node of an item; its inner children follow in items, and their
@@ -127,7 +138,7 @@ static uint32_t write_node(const collapse *c, collapse_part *p,
     quantise_axis(w, 1, i, box->lo.y, box->hi.y);
     quantise_axis(w, 2, i, box->lo.z, box->hi.z);
     if (wide_is_leaf(c->b, c->costs, child[i])) {
-      w->child[i] = write_leaf(c, p, child[i]);
+      w->child[i] = write_leaf(c, child[i]);
       continue;
     }
     w->child[i] = p->next_node++;
@@ -215,9 +226,7 @@ static void write_above(collapse *c) {
     collapse_part *p = &c->parts[i];
     uint32_t nodes = p->next_node;
     p->next_node = top.next_node;
-    p->next_triangle = top.next_triangle;
     top.next_node += nodes;
-    top.next_triangle += c->costs[p->root.from].below;
   }
 }
 
@@ -248,10 +257,12 @@ void wide_tree_build(wide_tree *out, const bvh *b, arena *mem, pool *threads) {
   out->node_count = c.above_count + c.part_count;
   for (uint32_t i = 0; i < c.part_count; i++)
     out->node_count += c.parts[i].next_node;
-  out->triangle_count = c.costs[0].below;
+  out->triangle_count = b->refs;
   wide_tree_room(out, mem);
   write_above(&c);
   pool_run(threads, c.part_count, write_part, &c);
+  pool_run(threads, (b->bundle_count + BUNDLES - 1) / BUNDLES, write_bundles,
+           &c);
   for (uint32_t i = 0; i < c.part_count; i++)
     if (c.parts[i].depth > out->depth) out->depth = c.parts[i].depth;
   arena_free(&scratch);

@@ -15,7 +15,7 @@
 // KINDS (all) one of kinds.  With HIGH both cut triangles: Embree builds in
 // high quality, facet as for --bvh high.
 
-#include "bvh_split.h"
+#include "bvh_shared.h"
 #include "clock.h"
 #include "obj.h"
 #include "rays.h"
@@ -176,7 +176,7 @@ static void build_binary(bvh *b, const mesh *m, arena *mem) {
   bvh of = {.positions = m->positions,
             .index = m->position_index,
             .triangle_count = (uint32_t)m->triangle_count};
-  bvh_split_build(b, &of, INFINITY, mem, NULL);
+  bvh_shared_build(b, &of, INFINITY, mem, NULL);
 }
 
 // Build in turn, BUILDS (5) times: the least seconds of Embree, of the binary

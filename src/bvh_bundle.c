@@ -1,0 +1,145 @@
+// bvh_bundle.c
+
+#include "bvh_bundle.h"
+
+#include "bvh_split_clip.h"
+#include "sah.h"
+
+// Into so many parts a bundle is cut to see what cutting it gives.
+enum { PROBE = 4 };
+
+// Halving so many parts leaves one, whatever their number.
+enum { HALVINGS = 32 };
+
+// Some of a bundle on its way: the boxes of the triangles that are there, the
+// box of all of them, and how many parts are to be made of it.
+typedef struct piece {
+  uint32_t mask, parts;
+  sah_box all, box[BVH_BUNDLE];
+} piece;
+
+// A bundle being cut: the corners of its triangles, and which may be cut.
+typedef struct cutting {
+  uint32_t count, large;
+  vec3 corner[BVH_BUNDLE][3];
+} cutting;
+
+bool bvh_bundle_large(const sah_box *box, float least) {
+  for (int k = 0; k < 3; k++)
+    if (box->hi[k] - box->lo[k] > least) return true;
+  return false;
+}
+
+static void piece_add(piece *p, uint32_t i, const sah_box *box) {
+  p->mask |= 1u << i;
+  p->box[i] = *box;
+  sah_box_join(&p->all, box);
+}
+
+// All of a bundle.
+static piece begin_cutting(cutting *c, const bvh *b, const bvh_bundle *u,
+                           float least) {
+  piece p = {.all = sah_box_empty()};
+  c->count = u->count;
+  c->large = 0;
+  for (uint32_t i = 0; i < u->count; i++) {
+    const uint32_t *v = b->index + 3 * (size_t)b->order[u->first + i];
+    vec3 *at = c->corner[i];
+    for (int k = 0; k < 3; k++)
+      at[k] = b->positions[v[k]];
+    vec3 lo = vec3_min(at[0], vec3_min(at[1], at[2]));
+    vec3 hi = vec3_max(at[0], vec3_max(at[1], at[2]));
+    sah_box box = {{lo.x, lo.y, lo.z, 0}, {hi.x, hi.y, hi.z, 0}};
+    c->large |= (uint32_t)bvh_bundle_large(&box, least) << i;
+    piece_add(&p, i, &box);
+  }
+  return p;
+}
+
+// Where to cut a piece: across its longest side, in proportion to the parts
+// that either side is to have; axis -1 where no float lies between its ends.
+static bvh_slice plane_of(const piece *p) {
+  bvh_slice s = {.axis = 0};
+  for (int k = 1; k < 3; k++)
+    if (p->all.hi[k] - p->all.lo[k] > p->all.hi[s.axis] - p->all.lo[s.axis])
+      s.axis = k;
+  float lo = p->all.lo[s.axis], hi = p->all.hi[s.axis];
+  float share = (float)(p->parts / 2) / (float)p->parts;
+  s.lo = s.hi = lo + (hi - lo) * share;
+  if (!(s.lo > lo && s.lo < hi)) s.axis = -1;
+  return s;
+}
+
+// What of triangle i of a piece goes to either side of a plane.
+static void part_triangle(const cutting *c, const piece *p, uint32_t i,
+                          bvh_slice at, piece side[2]) {
+  const sah_box *box = &p->box[i];
+  float lo = box->lo[at.axis], hi = box->hi[at.axis];
+  if (hi <= at.lo || lo >= at.lo || !(c->large >> i & 1)) {
+    bool right = hi > at.lo && 0.5f * lo + 0.5f * hi >= at.lo;
+    piece_add(&side[right], i, box);
+    return;
+  }
+  bvh_slice half[2] = {{at.axis, -INFINITY, at.lo}, {at.axis, at.lo, INFINITY}};
+  for (int k = 0; k < 2; k++) {
+    sah_box part;
+    if (bvh_split_clip(&part, box, c->corner[i], half[k]))
+      piece_add(&side[k], i, &part);
+  }
+}
+
+uint32_t bvh_bundle_cut(const bvh *b, const bvh_bundle *u, float least,
+                        uint32_t parts, sah_ref *out) {
+  cutting c;
+  piece stack[HALVINGS + 2];
+  int top = 0;
+  uint32_t n = 0;
+  stack[top] = begin_cutting(&c, b, u, least);
+  stack[top++].parts = parts;
+  while (top > 0) {
+    const piece p = stack[--top];
+    bvh_slice at = {.axis = -1};
+    if (p.parts > 1 && c.large != 0) at = plane_of(&p);
+    if (at.axis < 0) {
+      out[n++].box = p.all;
+      continue;
+    }
+    piece side[2] = {{.parts = p.parts / 2, .all = sah_box_empty()},
+                     {.parts = p.parts - p.parts / 2, .all = sah_box_empty()}};
+    for (uint32_t i = 0; i < c.count; i++)
+      if (p.mask >> i & 1) part_triangle(&c, &p, i, at, side);
+    for (int k = 0; k < 2; k++)
+      if (side[k].mask != 0) stack[top++] = side[k];
+  }
+  return n;
+}
+
+// Half the area of a flat box around a triangle, were it turned to the axes.
+static double area_of(const vec3 p[3]) {
+  double e[2][3];
+  for (int i = 0; i < 2; i++) {
+    e[i][0] = (double)p[i + 1].x - (double)p[0].x;
+    e[i][1] = (double)p[i + 1].y - (double)p[0].y;
+    e[i][2] = (double)p[i + 1].z - (double)p[0].z;
+  }
+  double x = e[0][1] * e[1][2] - e[0][2] * e[1][1];
+  double y = e[0][2] * e[1][0] - e[0][0] * e[1][2];
+  double z = e[0][0] * e[1][1] - e[0][1] * e[1][0];
+  return sqrt(x * x + y * y + z * z);
+}
+
+void bvh_bundle_measure(const bvh *b, bvh_bundle *u, float least, double all) {
+  sah_ref part[PROBE];
+  bvh_bundle_cut(b, u, least, 1, part);
+  double whole = sah_half_area(&part[0].box), sum = 0;
+  uint32_t n = bvh_bundle_cut(b, u, least, PROBE, part);
+  for (uint32_t i = 0; i < n; i++)
+    sum += sah_half_area(&part[i].box);
+  u->excess = fmin(fmax(whole - sum, 0) * PROBE / (PROBE - 1), whole) / all;
+  u->flat = whole / all - u->excess;
+  cutting c;
+  begin_cutting(&c, b, u, least);
+  u->area = 0;
+  for (uint32_t i = 0; i < c.count; i++)
+    u->area += area_of(c.corner[i]) / all;
+}
