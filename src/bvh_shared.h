@@ -6,7 +6,7 @@
 #include "bvh.h"
 
 // Of 100 triangles that are kept, at most so many boxes more are in leaves.
-enum { BVH_SHARED_PERCENT = 80 };
+enum { BVH_SHARED_PERCENT = 75 };
 
 // A tree for many rays over the mesh that another bvh names (positions, index
 // and triangle_count; nothing else of it is read).  Bundles of up to eight

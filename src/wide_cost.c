@@ -59,6 +59,7 @@ static void find_cost(const cost_job *job, uint32_t node) {
   c->below = l->below + r->below;
   c->of[WIDE - 1] = share_places(l, r, WIDE, &left);
   c->of[0] = area + c->of[WIDE - 1];
+  // What is shared has one layout, and is not joined to anything.
   if (c->below <= WIDE_LEAF && job->b->bundles == NULL)
     c->of[0] = fminf(c->of[0], leaf_cost(area, c->below));
   for (int i = 1; i < WIDE - 1; i++)

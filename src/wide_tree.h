@@ -18,7 +18,8 @@ typedef struct wide_node {
 
 // A tree made of a bvh.  The triangles of a leaf are copied together: with n
 // of them, x of corner 0 n times, y, z, then corners 1 and 2, then their n
-// numbers; 40 bytes a triangle and no gaps.
+// numbers; 40 bytes a triangle and no gaps, in the order of the bvh.  Leaves
+// may share their triangles.
 typedef struct wide_tree {
   float lo[4], hi[4];   // its box; the fourth number is never read
   float large;          // slab_large of the box
