@@ -114,20 +114,6 @@ uint32_t bvh_bundle_cut(const bvh *b, const bvh_bundle *u, float least,
   return n;
 }
 
-// Half the area of a flat box around a triangle, were it turned to the axes.
-static double area_of(const vec3 p[3]) {
-  double e[2][3];
-  for (int i = 0; i < 2; i++) {
-    e[i][0] = (double)p[i + 1].x - (double)p[0].x;
-    e[i][1] = (double)p[i + 1].y - (double)p[0].y;
-    e[i][2] = (double)p[i + 1].z - (double)p[0].z;
-  }
-  double x = e[0][1] * e[1][2] - e[0][2] * e[1][1];
-  double y = e[0][2] * e[1][0] - e[0][0] * e[1][2];
-  double z = e[0][0] * e[1][1] - e[0][1] * e[1][0];
-  return sqrt(x * x + y * y + z * z);
-}
-
 void bvh_bundle_measure(const bvh *b, bvh_bundle *u, float least, double all) {
   sah_ref part[PROBE];
   bvh_bundle_cut(b, u, least, 1, part);
@@ -137,9 +123,4 @@ void bvh_bundle_measure(const bvh *b, bvh_bundle *u, float least, double all) {
     sum += sah_half_area(&part[i].box);
   u->excess = fmin(fmax(whole - sum, 0) * PROBE / (PROBE - 1), whole) / all;
   u->flat = whole / all - u->excess;
-  cutting c;
-  begin_cutting(&c, b, u, least);
-  u->area = 0;
-  for (uint32_t i = 0; i < c.count; i++)
-    u->area += area_of(c.corner[i]) / all;
 }

@@ -11,13 +11,12 @@ enum { BVH_BUNDLE = 8 };
 
 // Triangles order[first .. first + count - 1] of a tree.  A box around all of
 // them is entered by flat + excess rays, in units of those that enter the box
-// of the tree; in k parts, by about flat + excess / k; and by `area` flat boxes
-// around each of its triangles.  Parts at + 0, 1, ... of a list of all are its
-// own: so many were asked for and so many made.
+// of the tree; in k parts, by about flat + excess / k.  Parts at + 0, 1, ... of
+// a list of all are its own: so many were asked for and so many made.
 typedef struct bvh_bundle {
   uint32_t first, count, parts, made;
   uint64_t at;
-  double flat, excess, area;
+  double flat, excess;
 } bvh_bundle;
 
 // Whether a box is longer than `least` along an axis.
@@ -30,7 +29,7 @@ bool bvh_bundle_large(const sah_box *box, float least);
 uint32_t bvh_bundle_cut(const bvh *b, const bvh_bundle *u, float least,
                         uint32_t parts, sah_ref *out);
 
-// Set flat, excess and area; `all` is half the area of the tree's box.
+// Set flat and excess; `all` is half the area of the tree's box.
 void bvh_bundle_measure(const bvh *b, bvh_bundle *u, float least, double all);
 
 #endif

@@ -25,50 +25,22 @@ enum { CHUNK = 1024, STEPS = 40 };
 
 #define PART_SECONDS 2e-6
 
-// Bundles hold together if, cut, they are at most so many times as large as
-// their triangles.
-#define MOST_FLAT 1.4
-
 // What the threads share.
 typedef struct splitter {
   const bvh *plain;
-  const sah_ref *triangles;
   bvh_bundle *bundles;
   sah_ref *parts;
-  bool *found;  // by chunk of triangles: whether one is large
   float least;  // slab_large
   double area;  // half that of all
-  uint32_t triangle_count, bundle_count;
+  uint32_t bundle_count;
 } splitter;
 
 static splitter splitter_of(const bvh *plain, const bvh_source *from) {
   const sah_box *box = &from->root.box;
   aabb all = {{box->lo[0], box->lo[1], box->lo[2]},
               {box->hi[0], box->hi[1], box->hi[2]}};
-  return (splitter){.plain = plain,
-                    .triangles = from->refs,
-                    .least = slab_large(&all),
-                    .area = sah_half_area(box),
-                    .triangle_count = plain->kept};
-}
-
-static void look_at(void *context, size_t item, int worker) {
-  (void)worker;
-  const splitter *s = context;
-  uint32_t begin = (uint32_t)item * CHUNK;
-  for (uint32_t i = begin; i < s->triangle_count && i - begin < CHUNK; i++)
-    s->found[item] |= bvh_bundle_large(&s->triangles[i].box, s->least);
-}
-
-// Whether any triangle is large.
-static bool any_large(splitter *s, arena *mem, pool *threads) {
-  size_t chunks = s->triangle_count / CHUNK + 1;
-  bool any = false;
-  s->found = ARENA_NEW(mem, bool, chunks);
-  pool_run(threads, chunks, look_at, s);
-  for (size_t i = 0; i < chunks; i++)
-    any |= s->found[i];
-  return any;
+  return (splitter){
+      .plain = plain, .least = slab_large(&all), .area = sah_half_area(box)};
 }
 
 // What the wide tree makes one leaf of is a bundle; in order.
@@ -153,17 +125,16 @@ static double cut_rays_of(const splitter *s) {
   return spared > 0 ? parts * PART_SECONDS / (spared * RAY_SECONDS) : HUGE_VAL;
 }
 
-// Whether cut bundles would hold together: not where triangles cross that have
-// nothing to do with each other.
-static bool bundles_hold(const splitter *s) {
-  double flat = 0, area = 0;
+// Whether most rays that enter bundles do so for nothing, and cutting could
+// spare it.  Where many bundles stay large however they are cut, triangles had
+// better be cut one by one.
+static bool excess_rules(const splitter *s) {
+  double flat = 0, excess = 0;
   for (uint32_t i = 0; i < s->bundle_count; i++) {
-    const bvh_bundle *u = &s->bundles[i];
-    if (!(u->excess > 0)) continue;
-    flat += u->flat;
-    area += u->area;
+    flat += s->bundles[i].flat;
+    excess += s->bundles[i].excess;
   }
-  return flat <= MOST_FLAT * area;
+  return excess > flat;
 }
 
 static void cut_some(void *context, size_t item, int worker) {
@@ -233,14 +204,14 @@ static void build_cut(bvh *out, splitter *s, arena *mem, pool *threads) {
 static bool plan(splitter *s, arena *mem, pool *threads) {
   find_bundles(s, mem, threads);
   pool_run(threads, s->bundle_count / CHUNK + 1, measure_some, s);
-  if (!bundles_hold(s)) return false;
+  if (!excess_rules(s)) return false;
   share_parts(s);
   return true;
 }
 
 void bvh_shared_build(bvh *out, const bvh *mesh, double rays, arena *mem,
                       pool *threads) {
-  double start = clock_seconds(), cut_rays = HUGE_VAL;
+  double start = clock_seconds();
   arena refs = {0}, scratch = {0}, own = {0};
   *out = (bvh){.positions = mesh->positions,
                .index = mesh->index,
@@ -249,15 +220,15 @@ void bvh_shared_build(bvh *out, const bvh *mesh, double rays, arena *mem,
   from.root = bvh_read(&from.refs, out, 0, &refs, threads);
   bvh plain = *out;
   splitter s = splitter_of(&plain, &from);
-  bool large = any_large(&s, &scratch, threads);
+  double one_by_one = bvh_split_rays(out, &from, &scratch, threads);
+  bool large = one_by_one < HUGE_VAL;
   bvh_build_source(&plain, &from, &own, threads);
-  bool hold = !large || plan(&s, &scratch, threads);
-  if (large && hold) cut_rays = cut_rays_of(&s);
-  if (!hold) {
-    bvh_split_build(out, mesh, rays, mem, threads);
-    cut_rays = out->cut_rays;
-  } else if (rays > cut_rays) {
+  bool bundles = large && plan(&s, &scratch, threads);
+  double cut_rays = bundles ? cut_rays_of(&s) : one_by_one;
+  if (rays > cut_rays && bundles) {
     build_cut(out, &s, mem, threads);
+  } else if (rays > cut_rays) {
+    bvh_split_build(out, mesh, rays, mem, threads);
   } else {
     *out = plain;
     arena_adopt(mem, &own);

@@ -12,7 +12,7 @@ enum { BVH_SHARED_PERCENT = 75 };
 // and triangle_count; nothing else of it is read).  Bundles of up to eight
 // triangles are cut where it pays, and each part is a leaf: leaves of a bundle
 // share its triangles, and `bundles` is set.  It is bvh_split_build's tree
-// where bundles would not hold together, and bvh_build's for BVH_COARSE where
+// where bundles would stay large, and bvh_build's for BVH_COARSE where
 // nothing large (slab_large) is worth cutting, or so few `rays` are to be
 // traced that a better tree would not repay its making; INFINITY: never mind.
 // The same hits to the bit, the same tree for any number of threads.  Sets

@@ -144,6 +144,12 @@ static double cut_rays_of(const split_look *l, uint32_t kept) {
   return cuts >= 1 ? kept * CUT_SECONDS / (spared * RAY_SECONDS) : DBL_MAX;
 }
 
+double bvh_split_rays(const bvh *b, const bvh_source *from, arena *mem,
+                      pool *threads) {
+  split_look look = look_at_all(b, from->refs, &from->root.box, mem, threads);
+  return cut_rays_of(&look, b->kept);
+}
+
 // A node joins the tasks or the queue.
 static void sort_node(split_builder *b, const bvh_split_node *n) {
   if (n->part.end - n->part.begin > b->small) {

@@ -3,7 +3,7 @@
 #ifndef BVH_SPLIT_H
 #define BVH_SPLIT_H
 
-#include "bvh.h"
+#include "bvh_read.h"
 
 // Of 100 triangles that are kept, at most so many more are in the leaves.
 enum { BVH_SPLIT_PERCENT = 30 };
@@ -21,5 +21,10 @@ enum { BVH_SPLIT_PERCENT = 30 };
 // Hierarchies".
 void bvh_split_build(bvh *out, const bvh *mesh, double rays, arena *mem,
                      pool *threads);
+
+// cut_rays for a mesh of which all that can be hit has been read; b has its
+// positions and index.  mem is for scratch.
+double bvh_split_rays(const bvh *b, const bvh_source *from, arena *mem,
+                      pool *threads);
 
 #endif
