@@ -9,7 +9,7 @@
 #include <string.h>
 
 // A pixel asks those of a window around it: REACH to each side.
-enum { REACH = 2 };
+enum { REACH = 1 };
 
 // A side of a patch, which is what a thread does at once; the pixels around it
 // are seen, too.  All are constants, for vector instructions.
@@ -38,21 +38,19 @@ static double more(double a, double b) {
 }
 
 // For all of a row: sums over the windows of its pixels, without these pixels
-// themselves.  First columns are added up, with and without the row, then five
+// themselves.  First columns are added up, with and without the row, then three
 // of them.  Nothing is taken off again, where one pixel may be a million times
 // the others.
 static void sum_others(const double (*seen)[SEEN], int row,
                        double *restrict out) {
   double own[SEEN], column[SEEN];
   const double *above = seen[row - 1], *at = seen[row], *below = seen[row + 1];
-  const double *first = seen[row - REACH], *last = seen[row + REACH];
   for (int k = 0; k < SEEN; k++) {
-    own[k] = first[k] + above[k] + below[k] + last[k];
+    own[k] = above[k] + below[k];
     column[k] = own[k] + at[k];
   }
   for (int k = 0; k < PATCH; k++)
-    out[k] =
-        column[k] + column[k + 1] + own[k + 2] + column[k + 3] + column[k + 4];
+    out[k] = column[k] + own[k + 1] + column[k + 2];
 }
 
 // The others of the pixels of a row: 1 / number, 1 / (number - 1); where there
@@ -88,8 +86,8 @@ static void add_terms(patch *p, const channel *c, int row,
     double each = n->each[k];
     double around = mean_sum[k] * each, noise = square_sum[k] * each;
     double vary = (mean2_sum[k] - mean_sum[k] * around) * n->rest[k];
-    double spread = more(vary - noise, 0), own = more(noise, squares[k]);
-    double trust = spread / more(spread + own, 1e-300);
+    double spread = more(vary - noise, 0);
+    double trust = spread / more(spread + squares[k], 1e-300);
     double likely = around + trust * (means[k] - around);
     double lone = n->lone[k] * more(means2[k] - squares[k], 0);
     shares[k] = 1 / (likely * likely + lone + 0.01);

@@ -40,7 +40,7 @@ static bool next_near(size_t i, size_t *at, two_means_pixel *out) {
   int x = (int)(i % RAGGED_WIDTH), y = (int)(i / RAGGED_WIDTH);
   for (++*at; *at < RAGGED; ++*at) {
     int u = (int)(*at % RAGGED_WIDTH), v = (int)(*at / RAGGED_WIDTH);
-    if (abs(u - x) <= 2 && abs(v - y) <= 2 && two_pixels(NULL, *at, out))
+    if (abs(u - x) <= 1 && abs(v - y) <= 1 && two_pixels(NULL, *at, out))
       return true;
   }
   return false;
@@ -84,8 +84,7 @@ static double share_of(size_t i, int c) {
   of_others(&noise, i, c, apart);
   if (n < 2) return 1 / (fmax(m * m - own, 0) + 0.01);
   double tau2 = fmax((squares - mu * mu) * n / (n - 1) - noise, 0);
-  double sigma2 = fmax(noise, own);
-  double trust = tau2 > 0 ? tau2 / (tau2 + sigma2) : 0;
+  double trust = tau2 > 0 ? tau2 / (tau2 + own) : 0;
   double likely = mu + trust * (m - mu);
   return 1 / (likely * likely + 0.01);
 }
