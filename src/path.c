@@ -45,6 +45,7 @@ static void ask_light(wave *w, const stop *s, const bsdf *b, uint32_t turns) {
   vec3 lit = vec3_mul(vec3_mul(p->throughput, m.f), l.radiance);
   lit = vec3_scale(lit, scale);
   if (!(vec3_peak(lit) > 0)) {
+    record = path_log_forget(w->by->log, record);
     if (!w->by->world->thorough) return;
     lit = vec3_all(0);
   }

@@ -23,3 +23,8 @@ size_t path_log_note(path_log *log, const light_set *l, const vertex *v,
                      found(l, s, m->cosine), weight};
   return log->count - 1;
 }
+
+size_t path_log_forget(path_log *log, size_t record) {
+  if (record != PATH_NO_RECORD) log->count = record;
+  return PATH_NO_RECORD;
+}

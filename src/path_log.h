@@ -20,4 +20,8 @@ typedef struct path_log {
 size_t path_log_note(path_log *log, const light_set *l, const vertex *v,
                      const light_sample *s, const meeting *m);
 
+// Take that line, the last one, out again: nobody will see what becomes of it.
+// PATH_NO_RECORD.
+size_t path_log_forget(path_log *log, size_t record);
+
 #endif

@@ -257,6 +257,23 @@ static void same_memory(void **state) {
   world_free(w);
 }
 
+// Whoever also does what adds nothing, such as shadow rays for black surfaces,
+// remembers the same.
+static void same_if_thorough(void **state) {
+  (void)state;
+  world *w = yard(MANY_LAMPS);
+  render_result pictures[2];
+  for (int i = 0; i < 2; i++) {
+    w->path.thorough = i == 1;
+    walker k;
+    yard_walker(&k, w);
+    assert_true(learn(&k, NULL));
+    pictures[i] = walker_draw(&k, 2, NULL);
+  }
+  assert_same_bytes(&pictures[0], &pictures[1]);
+  world_free(w);
+}
+
 // Where all see the same sky, nothing is remembered.
 static void nothing_to_remember(void **state) {
   (void)state;
@@ -278,6 +295,7 @@ int main(void) {
       cmocka_unit_test(also_beside_lamps),
       cmocka_unit_test(lies_do_no_harm),
       cmocka_unit_test(same_memory),
+      cmocka_unit_test(same_if_thorough),
       cmocka_unit_test(nothing_to_remember),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
