@@ -54,8 +54,7 @@ static void ask_light(wave *w, const stop *s, const bsdf *b, uint32_t turns) {
   w->shadow_rays[i] =
       s->lit ? path_ready_shadow(s) : light_ray_shadow(&to, &v->at, true);
   w->shadows[i].path = s->which;
-  w->shadows[i].lit = lit;
-  w->shadows[i].record = record;
+  w->shadows[i].lit = lit, w->shadows[i].record = record;
   if (!w->sheets) return;
   w->shadows[i].to = to;
   w->shadows[i].from = v->at;
