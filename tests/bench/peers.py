@@ -153,7 +153,7 @@ def describe(path, shape):
     elif env[0] != "none":
         turn = mi.ScalarTransform4f().rotate([0, 1, 0], 180)
         scene["env"] = {"type": "envmap", "bitmap": sky_of(folder / env[0]), "to_world": turn}
-    for i, (name, list_of) in enumerate(faces.items()):
+    for i, (name, list_of) in enumerate((n, f) for n, f in faces.items() if f):
         scene["mesh_%d" % i] = shape(name, points, normals, list_of, materials[name])
     return scene, width, height
 

@@ -39,16 +39,19 @@ def read_mtl(path):
     return colors
 
 
-def corner(text):
+def corner(text, counts):
+    """v or v//vn, counted from 1 and not from here."""
     place, *rest = text.split("/")
-    return place + "//" + rest[1] if len(rest) > 1 and rest[1] else place
+    wanted = [place] + rest[1:2]
+    found = [str(int(w) if int(w) > 0 else n + 1 + int(w)) for w, n in zip(wanted, counts) if w]
+    return "//".join(found)
 
 
 class Model:
     """Lines of an OBJ with nothing but geometry and names of materials."""
 
     def __init__(self, source):
-        self.lines, self.points, self.used, library = ["usemtl plain"], [], {"plain"}, None
+        self.lines, self.points, self.used, library, normals = ["usemtl plain"], [], {"plain"}, None, 0
         for line in open(source, errors="replace"):
             words = line.split()
             if words[:1] == ["mtllib"]:
@@ -61,8 +64,10 @@ class Model:
                 self.lines.append("v " + " ".join(words[1:4]))
             elif words[:1] == ["vn"]:
                 self.lines.append(line.strip())
+                normals += 1
             elif words[:1] == ["f"]:
-                self.lines.append("f " + " ".join(corner(w) for w in words[1:]))
+                counts = len(self.points), normals
+                self.lines.append("f " + " ".join(corner(w, counts) for w in words[1:]))
         self.colors = read_mtl(library) if library and library.exists() else {}
         self.lo = [min(p[i] for p in self.points) for i in range(3)]
         self.hi = [max(p[i] for p in self.points) for i in range(3)]
@@ -81,8 +86,11 @@ class Model:
         half = sides * max(b - a for a, b in zip(self.lo, self.hi))
         x, y, z = self.at(0.5, -0.001, 0.5)
         for a, b in ((-1, 1), (1, 1), (1, -1), (-1, -1)):
-            self.lines.append("v %g %g %g" % (x + a * half, y, z + b * half))
-        self.lines += ["usemtl plain", "f -4 -3 -2 -1"]
+            self.points.append([x + a * half, y, z + b * half])
+            self.lines.append("v %g %g %g" % tuple(self.points[-1]))
+        n = len(self.points)
+        self.used.add("ground")
+        self.lines += ["usemtl ground", "f %d %d %d %d" % (n - 3, n - 2, n - 1, n)]
 
     def write(self, folder, name):
         with open(folder / (name + ".mtl"), "w") as f:
