@@ -355,14 +355,14 @@ static vec3 adaptive_variance(const void *self, size_t pixel) {
 }
 
 render_guide adaptive_guide(adaptive *a) {
-  return (render_guide){a,
-                        adaptive_plan,
-                        adaptive_next,
-                        adaptive_add,
-                        adaptive_spend,
-                        adaptive_error,
-                        adaptive_mean,
-                        adaptive_variance};
+  return (render_guide){.self = a,
+                        .plan = adaptive_plan,
+                        .next = adaptive_next,
+                        .add = adaptive_add,
+                        .spend = adaptive_spend,
+                        .error = adaptive_error,
+                        .mean = adaptive_mean,
+                        .variance = adaptive_variance};
 }
 
 void adaptive_tiles(const adaptive *a, adaptive_tile *out) {

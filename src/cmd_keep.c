@@ -285,8 +285,7 @@ void cmd_keep_watch(cmd_keep *k) {
     arena_free(&scratch);
   }
   if (k->doubling != NULL) {
-    if (k->resumed)
-      doubling_go_on(k->doubling, &p->film[PART_COLOR], &p->marks);
+    if (k->resumed) doubling_go_on(k->doubling, &p->marks);
     p->marks = doubling_look(k->doubling);
   }
 }

@@ -8,17 +8,23 @@
 #include <string.h>
 
 struct doubling {
-  film all;
+  size_t pixels;
+  const film *all;  // of others
   doubling_marks marks;
 };
 
 doubling *doubling_new(arena *mem, int width, int height) {
   doubling *d = ARENA_NEW(mem, doubling, 1);
   size_t n = (size_t)width * (size_t)height;
-  d->all = film_new(mem, width, height, true);
+  d->pixels = n;
   d->marks.whole = ARENA_NEW(mem, vec3, n);
   d->marks.half = ARENA_NEW(mem, vec3, n);
   return d;
+}
+
+static void doubling_watch(void *self, const film *all) {
+  doubling *d = self;
+  d->all = all;
 }
 
 static vec3 sum_of(const film *f, size_t i) {
@@ -28,13 +34,12 @@ static vec3 sum_of(const film *f, size_t i) {
 
 static void doubling_add(void *self, size_t i, uint32_t sample, vec3 color) {
   doubling *d = self;
-  uint32_t n = d->all.count[i];
+  uint32_t n = d->all->count[i];
   if (n > 0 && (n & (n - 1)) == 0) {
     d->marks.half[i] = d->marks.whole[i];
-    d->marks.whole[i] = sum_of(&d->all, i);
+    d->marks.whole[i] = sum_of(d->all, i);
   }
-  film_add(&d->all, i, color);
-  (void)sample;
+  (void)sample, (void)color;
 }
 
 // The largest power of two that is at most n > 0.
@@ -49,15 +54,15 @@ static uint32_t power_below(uint32_t n) {
 // variance of one sample.
 static bool doubling_pixel(const void *self, size_t i, two_means_pixel *out) {
   const doubling *d = self;
-  uint32_t n = d->all.count[i], m = power_below(n);
+  uint32_t n = d->all->count[i], m = power_below(n);
   if (n < 2) return false;
-  vec3 whole = n == m ? sum_of(&d->all, i) : d->marks.whole[i];
+  vec3 whole = n == m ? sum_of(d->all, i) : d->marks.whole[i];
   vec3 half = n == m ? d->marks.whole[i] : d->marks.half[i];
   float w[3] = {whole.x, whole.y, whole.z}, h[3] = {half.x, half.y, half.z};
   double of_half = 2.0 / m, of_all = 1.0 / n, of_rest = 1.0 / (n - 1);
   for (int c = 0; c < 3; c++) {
-    double sum = d->all.sum[i][c];
-    double spread = d->all.square[i][c] - sum * sum * of_all;
+    double sum = d->all->sum[i][c];
+    double spread = d->all->square[i][c] - sum * sum * of_all;
     out->other[c] = spread > 0 ? spread * of_rest : 0;
     out->a[c] = (double)h[c] * of_half;
     out->b[c] = (double)(w[c] - h[c]) * of_half;
@@ -82,9 +87,9 @@ static double rate_of(double left, int k) {
 
 static double doubling_error(void *self, pool *threads) {
   const doubling *d = self;
-  uint32_t n = d->all.count[0], m = n > 0 ? power_below(n) : 0;
+  uint32_t n = d->all->count[0], m = n > 0 ? power_below(n) : 0;
   if (m < 2) return 0;
-  two_means t = {d->all.width, d->all.height, d, doubling_pixel};
+  two_means t = {d->all->width, d->all->height, d, doubling_pixel};
   two_means_sums s = two_means_measure(&t, NULL, threads);
   if (!(s.other > 0)) return 0;
   int k = 0;
@@ -98,17 +103,17 @@ static double doubling_error(void *self, pool *threads) {
 }
 
 render_guide doubling_guide(doubling *d) {
-  return (render_guide){
-      .self = d, .add = doubling_add, .error = doubling_error};
+  return (render_guide){.self = d,
+                        .watch = doubling_watch,
+                        .add = doubling_add,
+                        .error = doubling_error};
 }
 
 doubling_marks doubling_look(const doubling *d) {
   return d->marks;
 }
 
-void doubling_go_on(doubling *d, const film *all, const doubling_marks *marks) {
-  size_t n = (size_t)all->width * (size_t)all->height;
-  film_copy(&d->all, all);
-  memcpy(d->marks.whole, marks->whole, n * sizeof *marks->whole);
-  memcpy(d->marks.half, marks->half, n * sizeof *marks->half);
+void doubling_go_on(doubling *d, const doubling_marks *marks) {
+  memcpy(d->marks.whole, marks->whole, d->pixels * sizeof *marks->whole);
+  memcpy(d->marks.half, marks->half, d->pixels * sizeof *marks->half);
 }

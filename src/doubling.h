@@ -12,7 +12,7 @@ typedef struct doubling doubling;
 // For samples of numbers 0, 1, 2, ... of every pixel, in this order.
 doubling *doubling_new(arena *mem, int width, int height);
 
-// Watches only.
+// Watches only, the film that the samples are added to.
 render_guide doubling_guide(doubling *d);
 
 // Sums of pixels as doubling looks back at them: of the first 2^k samples, 2^k
@@ -23,7 +23,7 @@ typedef struct doubling_marks {
 
 doubling_marks doubling_look(const doubling *d);
 
-// Go on from these and the sums of all samples, which are copied.
-void doubling_go_on(doubling *d, const film *all, const doubling_marks *marks);
+// Go on from these, which are copied, and a film that has their samples.
+void doubling_go_on(doubling *d, const doubling_marks *marks);
 
 #endif

@@ -121,9 +121,9 @@ static void end_samples(job *j, worker *w) {
       tally_drop(t, s->sample, s->pixel);
       continue;
     }
-    film_add(&j->sums.color, w->pixels[k], color);
     const render_guide *g = j->set->guide;
     if (g != NULL) g->add(g->self, w->pixels[k], s->sample, color);
+    film_add(&j->sums.color, w->pixels[k], color);
     if (firsts) render_sums_add_first(&j->sums, w->pixels[k], &first);
   }
   t->samples += w->count;
@@ -339,13 +339,21 @@ static void render_passes(job *j, pool *threads) {
   if (j->set->progress != NULL) tell_progress(j, clock_seconds());
 }
 
+// Whether the film needs squares, but for a guide that watches it.
+static bool wants_squares(const render_settings *s) {
+  return s->keep != NULL || (s->aovs & RENDER_AOV_VARIANCE) != 0 ||
+         (s->guide == NULL && (s->error > 0 || s->progress != NULL));
+}
+
 // Films for the sums, empty or with what is kept.
 static void ready_sums(job *j, arena *mem, pool *threads) {
   const render_settings *s = j->set;
-  bool squares = s->keep != NULL || (s->aovs & RENDER_AOV_VARIANCE) != 0 ||
-                 (s->guide == NULL && (s->error > 0 || s->progress != NULL));
+  const render_guide *g = s->guide;
+  bool watched = g != NULL && g->watch != NULL;
+  bool squares = watched || wants_squares(s);
   if (s->keep == NULL || !s->keep->load(s->keep->self, &j->sums))
     j->sums = render_sums_new(j->width, j->height, s->aovs, squares, mem);
+  if (watched) g->watch(g->self, &j->sums.color);
   j->kept = j->sums.tally;
   j->before = (double)j->kept.samples;
   j->first = j->sums.taken;
@@ -389,6 +397,7 @@ void render_run(render_result *out, const path_world *world,
   *out = (render_result){.spp = spp_so_far(&j), .error = j.error};
   out->stopped = s->stop != NULL && *s->stop && out->spp < s->spp;
   render_sums_counts(out, &j.sums, s->width);
+  out->squares &= wants_squares(s);
   render_sums_images(out, &j.sums, s->aovs, s->guide, mem);
   arena_free(&scratch);
   out->seconds = clock_seconds() - j.start;

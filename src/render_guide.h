@@ -4,6 +4,7 @@
 #ifndef RENDER_GUIDE_H
 #define RENDER_GUIDE_H
 
+#include "film.h"
 #include "pool.h"
 #include "shard.h"
 
@@ -37,7 +38,11 @@ typedef struct render_guide {
   // The next turn of the tile in this pass; false when the tile is done.  *at
   // is 0 at first and the guide's after that.
   bool (*next)(void *self, size_t tile, uint32_t *at, render_turn *turn);
-  // Told of every sample by the worker that has the tile.
+  // Told before the first sample of the film that gets them all, which then has
+  // squares.
+  void (*watch)(void *self, const film *all);
+  // Told of every sample by the worker that has the tile, before the film gets
+  // it.
   void (*add)(void *self, size_t pixel, uint32_t sample, vec3 color);
   // Told after a pass how many rays the tile's paths took.
   void (*spend)(void *self, size_t tile, uint64_t rays);

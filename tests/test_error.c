@@ -213,6 +213,7 @@ static void doubling_sees_evenness(void **state) {
       doubling *d = doubling_new(&mem, WIDTH, HEIGHT);
       render_guide g = doubling_guide(d);
       film f = film_new(&mem, WIDTH, HEIGHT, true);
+      g.watch(g.self, &f);
       for (size_t i = 0; i < PIXELS; i++)
         for (uint32_t s = 0; s < n; s++) {
           sampler u = sampler_of(k ? SAMPLER_RANDOM : SAMPLER_SOBOL, 5, i, s);
