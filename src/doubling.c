@@ -2,6 +2,7 @@
 
 #include "doubling.h"
 
+#include "pages.h"
 #include "two_means.h"
 
 #include <math.h>
@@ -19,6 +20,8 @@ doubling *doubling_new(arena *mem, int width, int height) {
   d->pixels = n;
   d->marks.whole = ARENA_NEW(mem, vec3, n);
   d->marks.half = ARENA_NEW(mem, vec3, n);
+  pages_expect(d->marks.whole, n * sizeof *d->marks.whole);
+  pages_expect(d->marks.half, n * sizeof *d->marks.half);
   return d;
 }
 

@@ -22,3 +22,16 @@ float first_hit_farthest(const scene *s, const camera_view *v) {
   }
   return far > 0 ? far : 1;
 }
+
+vec3 first_hit_shade(const first_hit *f, render_shading of, float farthest) {
+  switch (of) {
+  case RENDER_NORMAL:
+    if (!f->found) break;
+    return vec3_scale(vec3_add(f->normal, vec3_all(1)), 0.5f);
+  case RENDER_DEPTH:
+    return vec3_all(f->found ? fminf(f->depth / farthest, 1) : 1);
+  case RENDER_ALBEDO: return f->albedo;
+  case RENDER_RADIANCE: break;
+  }
+  return vec3_all(0);
+}

@@ -18,6 +18,9 @@ enum { TILE_RUN = INTEGRATOR_BATCH / (TILE * TILE), RUNS = 8 };
 #define PASS_SECONDS 0.5
 #define PROGRESS_SECONDS 0.1
 
+// Samples that nobody minds waiting for: half a second of two microseconds.
+#define FIRST_SAMPLES (1 << 18)
+
 // The fewest samples a pixel after which the estimated error is believed.
 enum { ERROR_MIN_SPP = 16 };
 
@@ -58,19 +61,6 @@ typedef struct job {
   int workers;
 } job;
 
-static vec3 shade_first(const job *j, const first_hit *f) {
-  switch (j->set->shading) {
-  case RENDER_NORMAL:
-    if (!f->found) break;
-    return vec3_scale(vec3_add(f->normal, vec3_all(1)), 0.5f);
-  case RENDER_DEPTH:
-    return vec3_all(f->found ? fminf(f->depth / j->farthest, 1) : 1);
-  case RENDER_ALBEDO: return f->albedo;
-  case RENDER_RADIANCE: break;
-  }
-  return vec3_all(0);
-}
-
 static bool wants_first(const render_settings *s) {
   unsigned of_first = RENDER_AOV_NORMAL | RENDER_AOV_DEPTH | RENDER_AOV_ALBEDO;
   return s->shading != RENDER_RADIANCE || (s->aovs & of_first) != 0;
@@ -106,8 +96,9 @@ static void start_row(const job *j, int x0, int x1, int y,
 static void end_samples(job *j, worker *w) {
   tally *t = &w->tally;
   bool firsts = wants_first(j->set);
+  bool radiance = j->set->shading == RENDER_RADIANCE;
   uint64_t rays = t->paths.rays;
-  if (j->set->shading == RENDER_RADIANCE)
+  if (radiance)
     j->by.radiance(j->by.self, w->starts, w->count, w->colors, &t->paths,
                    w->room);
   w->spent += t->paths.rays - rays;
@@ -115,8 +106,9 @@ static void end_samples(job *j, worker *w) {
     const path_start *s = &w->starts[k];
     first_hit first = {0};
     if (firsts) first = first_hit_of(j->world, j->view, &s->ray, &t->paths);
-    vec3 color = j->set->shading == RENDER_RADIANCE ? w->colors[k]
-                                                    : shade_first(j, &first);
+    vec3 color = radiance
+                     ? w->colors[k]
+                     : first_hit_shade(&first, j->set->shading, j->farthest);
     if (!vec3_finite(color)) {
       tally_drop(t, s->sample, s->pixel);
       continue;
@@ -216,23 +208,26 @@ static double pass_room(const job *j, double now) {
   return s->deadline > 0 ? fmin(room, s->deadline - now) : room;
 }
 
+static int fit(double samples, int left) {
+  double n = fmin(samples, (double)left);
+  return n < 1 ? 1 : (int)n;
+}
+
 // How many samples the next pass takes; 0 to stop.  All that is left when
 // nobody waits; else what should fit into PASS_SECONDS and before the
-// deadline, after a first pass of one.
+// deadline, after a first pass of few.
 static int pass_samples(const job *j) {
   const render_settings *s = j->set;
   int done = j->end, fresh = done - (int)j->first, left = s->spp - done;
-  bool waits = s->deadline > 0 || s->error > 0 || s->stop != NULL ||
-               s->progress != NULL || s->keep != NULL;
+  bool bound = s->deadline > 0 || s->error > 0 || s->keep != NULL;
+  bool waits = bound || s->stop != NULL || s->progress != NULL;
   if (!waits || left < 1) return left > 0 ? left : 0;
-  if (fresh == 0) return 1;
+  if (fresh == 0) return bound ? 1 : fit(FIRST_SAMPLES / j->pixels, left);
   if (s->stop != NULL && *s->stop) return 0;
   if (s->error > 0 && done >= ERROR_MIN_SPP && j->error <= s->error) return 0;
   double now = clock_seconds(), each = (now - j->start) / fresh;
   if (s->deadline > 0 && now + each > s->deadline) return 0;
-  double n = fmin(fmin(pass_room(j, now) / fmax(each, 1e-9), 4.0 * fresh),
-                  (double)left);
-  return n < 1 ? 1 : (int)n;
+  return fit(fmin(pass_room(j, now) / fmax(each, 1e-9), 4.0 * fresh), left);
 }
 
 // Seconds for one sample of one pixel, as it was so far and in the last pass.

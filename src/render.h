@@ -11,15 +11,6 @@
 
 #include <signal.h>
 
-// What a pixel shows.
-typedef enum render_shading {
-  RENDER_RADIANCE,
-  RENDER_NORMAL,  // (n + 1) / 2 of the shading normal
-  RENDER_DEPTH,   // distance along the view axis over that of the farthest
-                  // corner of the scene's box; 1 where there is nothing
-  RENDER_ALBEDO
-} render_shading;
-
 typedef struct render_progress {
   double done;       // share of the work, 0..1
   double begun;      // of that, before this run
