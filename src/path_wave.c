@@ -21,30 +21,63 @@ wave *wave_room(const path_tracer *by, arena *mem) {
   return w;
 }
 
-// The start that comes k-th, where starts are rows of sixteen pixels: those of
-// a square of four by four become neighbours, and their rays a packet.
+// Starts come in blocks, rows of sixteen pixels of a tile one after the other;
+// blocks of the same pixels, of sample after sample, are a stack.
+enum { ROW = 16, BLOCK = ROW * ROW, STACK = 4 * BLOCK };
+
+_Static_assert((int)ROW == (int)PATH_ROW, "rows of blocks");
+
+// The start that comes k-th: sixteen that are close become neighbours, and
+// their rays a packet.  Of one block a square of four by four; of a stack of
+// two blocks four by two pixels, and of four blocks two by two.
 static size_t square_order(size_t k) {
   return (k & ~(size_t)0x3c) | (k >> 2 & 3) << 4 | (k >> 4 & 3) << 2;
 }
 
-_Static_assert(PATH_ROW == 16, "rows of square_order");
+static size_t two_order(size_t k) {
+  return (k & ~(size_t)0x1fc) | (k >> 2 & 1) << 4 | (k >> 3 & 1) << 8 |
+         (k >> 4 & 3) << 2 | (k >> 6 & 7) << 5;
+}
+
+static size_t four_order(size_t k) {
+  return (k & ~(size_t)0x3fe) | (k >> 1 & 1) << 4 | (k >> 2 & 3) << 8 |
+         (k >> 4 & 7) << 1 | (k >> 7 & 7) << 5;
+}
+
+// How many starts are put in order together.
+static size_t together(const path_start *s, size_t n) {
+  if (n >= STACK && s[0].pixel == s[3 * BLOCK].pixel) return STACK;
+  if (n >= 2 * BLOCK && s[0].pixel == s[BLOCK].pixel) return 2 * BLOCK;
+  return n < BLOCK ? n & ~(size_t)(4 * ROW - 1) : BLOCK;
+}
+
+static size_t in_order(size_t k, size_t size) {
+  if (size == STACK) return four_order(k);
+  return size == 2 * BLOCK ? two_order(k) : square_order(k);
+}
+
+static void begin_path(wave *w, const path_start *starts, size_t i) {
+  const path_start *s = &starts[i];
+  w->paths[i] = (path){.throughput = vec3_all(1), .scale = 1, .segment = 1};
+  if (s->pixel == GROUP_NO_PIXEL) return;
+  w->paths[i].numbers =
+      sampler_of(w->by->sampler, w->by->seed, s->pixel, s->sample);
+  w->alive[w->count] = (uint32_t)i;
+  w->rays[w->count++] = s->ray;
+}
 
 void wave_begin(wave *w, const path_start *starts, size_t n) {
   const path_tracer *by = w->by;
-  const sampler_kind kind = by->sampler;
-  const uint64_t seed = by->seed;
-  const size_t squares = w->shares == NULL ? n & ~(size_t)63 : 0;
+  size_t done = 0, some;
   w->count = 0;
   w->steps = 0;
-  for (size_t k = 0; k < n; k++) {
-    size_t i = k < squares ? square_order(k) : k;
-    const path_start *s = &starts[i];
-    w->paths[i] = (path){.throughput = vec3_all(1), .scale = 1, .segment = 1};
-    if (s->pixel == GROUP_NO_PIXEL) continue;
-    w->paths[i].numbers = sampler_of(kind, seed, s->pixel, s->sample);
-    w->alive[w->count] = (uint32_t)i;
-    w->rays[w->count++] = s->ray;
+  while (w->shares == NULL && (some = together(starts + done, n - done)) > 0) {
+    for (size_t k = 0; k < some; k++)
+      begin_path(w, starts, done + in_order(k, some));
+    done += some;
   }
+  for (; done < n; done++)
+    begin_path(w, starts, done);
   if (w->aims != NULL) path_aims_begin(w->aims, by->aim, by->world, by->gain);
 }
 

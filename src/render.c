@@ -18,8 +18,8 @@ enum { TILE_RUN = INTEGRATOR_BATCH / (TILE * TILE), RUNS = 8 };
 #define PASS_SECONDS 0.5
 #define PROGRESS_SECONDS 0.1
 
-// Samples that nobody minds waiting for: half a second of two microseconds.
-#define FIRST_SAMPLES (1 << 18)
+// Samples that nobody minds waiting for: half a second of a microsecond each.
+#define FIRST_SAMPLES (1 << 19)
 
 // The fewest samples a pixel after which the estimated error is believed.
 enum { ERROR_MIN_SPP = 16 };
@@ -208,9 +208,10 @@ static double pass_room(const job *j, double now) {
   return s->deadline > 0 ? fmin(room, s->deadline - now) : room;
 }
 
+// At least one; whole stacks of four (path_wave.c) where there are several.
 static int fit(double samples, int left) {
-  double n = fmin(samples, (double)left);
-  return n < 1 ? 1 : (int)n;
+  int n = (int)fmax(fmin(samples, (double)left), 1);
+  return n > 4 && n < left ? n & ~3 : n;
 }
 
 // How many samples the next pass takes; 0 to stop.  All that is left when
