@@ -91,13 +91,14 @@ static void draw_estimates(output *o) {
   halves h = halves_new(&o->mem, EDGE_SIDE, EDGE_SIDE);
   render_guide d = doubling_guide(doubling_new(&o->mem, EDGE_SIDE, EDGE_SIDE));
   uint32_t done = 0;
+  d.watch(d.self, &f);
   for (int k = 0; k < EDGE_STEPS; k++) {
     uint32_t n = 2u << k;
     for (size_t i = 0; i < EDGE_PIXELS; i++)
       for (uint32_t s = done; s < n; s++) {
         vec3 sample = edge_sample(i, i, s);
-        film_add(&f, i, sample);
         d.add(d.self, i, s, sample);
+        film_add(&f, i, sample);
         halves_add(&h, i, s, edge_sample(i, i + (s & 1) * EDGE_PIXELS, s >> 1));
       }
     done = n;
