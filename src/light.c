@@ -62,12 +62,16 @@ light_memory *light_set_cut(light_set *l, vec3 lo, vec3 hi, arena *mem) {
   return m;
 }
 
-light_memory *light_set_cut_sky(light_set *l, vec3 lo, vec3 hi, arena *mem) {
+light_memory *light_set_cut_sky(light_set *l, vec3 lo, vec3 hi, arena *mem,
+                                pool *threads) {
+  if (!(l->env.irradiance > 0)) return NULL;
   light_memory *m = ARENA_NEW(mem, light_memory, 1);
   light_sky *sky = &l->sky;
-  if (!light_sky_of(sky, &l->env, LIGHT_PARTS_MOST, mem)) return NULL;
+  light_env_whole(&l->whole, &l->env, mem, threads);
+  if (!light_sky_of(sky, &l->whole, LIGHT_PARTS_MOST, mem)) return NULL;
   if (!light_memory_new(m, sky->power, sky->count, lo, hi, mem)) return NULL;
-  m->rest = l->env.rest;
+  light_sky_usual(sky, &l->env, m->usual);
+  m->rest = l->whole.rest;
   for (size_t i = 0; i < l->far_count; i++)
     m->rest += l->far[i].power;
   return m;

@@ -32,7 +32,8 @@ typedef struct light_set {
   light_name *names;  // of the triangles, rising
   size_t name_count;
   light_parts parts;           // of near
-  light_sky sky;               // the parts of env; count 0: not cut
+  light_env whole;             // all of env
+  light_sky sky;               // the parts of that; count 0: not cut
   const light_memory *memory;  // of one or the other; NULL: none
 } light_set;
 
@@ -49,7 +50,8 @@ bool light_set_any(const light_set *l);
 // mem.  The box is the scene's.  NULL when they are not such that they could be
 // remembered.
 light_memory *light_set_cut(light_set *l, vec3 lo, vec3 hi, arena *mem);
-light_memory *light_set_cut_sky(light_set *l, vec3 lo, vec3 hi, arena *mem);
+light_memory *light_set_cut_sky(light_set *l, vec3 lo, vec3 hi, arena *mem,
+                                pool *threads);
 
 // One direction in which there may be light.  Where nothing is in between,
 // f(wo, wi) cos radiance / pdf estimates the light from all lights that

@@ -23,9 +23,9 @@ static float mean_of(vec3 c) {
   return c.x * third + c.y * third + c.z * third;
 }
 
-// What of radiance is above the mean.
-static float above_mean(const light_env *l, vec3 c) {
-  return float_max(mean_of(c) - l->mean, 0);
+// What of radiance the table holds.
+static float above(const light_env *l, vec3 c) {
+  return float_max(mean_of(c) - l->less, 0);
 }
 
 // Row j of cells lies between the texel rows j - 1 and j, column i likewise.
@@ -47,10 +47,10 @@ static corners corners_of(const light_env *l, int i, int j) {
 }
 
 static cell cell_of(const light_env *l, const corners *c) {
-  return (cell){above_mean(l, c->above[c->left]) * c->above_scale,
-                above_mean(l, c->above[c->right]) * c->above_scale,
-                above_mean(l, c->below[c->left]) * c->below_scale,
-                above_mean(l, c->below[c->right]) * c->below_scale};
+  return (cell){above(l, c->above[c->left]) * c->above_scale,
+                above(l, c->above[c->right]) * c->above_scale,
+                above(l, c->below[c->left]) * c->below_scale,
+                above(l, c->below[c->right]) * c->below_scale};
 }
 
 static float cell_mean(const cell *c) {
@@ -97,18 +97,16 @@ static float mean_and_peak(const image *map, float *peak) {
   return (float)(sum / weight);
 }
 
-// Finds the mean and the scale of each row; gives the radiance that 1 stands
-// for, 0 where nothing is above the mean.
+// Finds the scale of each row; gives the radiance that 1 stands for, 0 where
+// the table holds nothing.
 static float measure(light_env *l, arena *mem) {
   const int rows = l->map.height;
-  float peak;
-  l->mean = mean_and_peak(&l->map, &peak);
   l->scale = ARENA_NEW(mem, float, (size_t)rows);
-  float unit = 1 / (peak - l->mean);
+  float unit = 1 / (l->peak - l->less);
   if (!(isfinite(unit) && unit > 0)) return 0;
   for (int y = 0; y < rows; y++)
     l->scale[y] = unit * row_sine(y, rows);
-  return peak - l->mean;
+  return l->peak - l->less;
 }
 
 // Work of the pool: the columns of one row of cells.
@@ -117,17 +115,30 @@ typedef struct row_job {
   float *values, *sums;
 } row_job;
 
+// The corners of cells that lie in one row of texels.
+static float *weigh_texels(const light_env *l, int row, arena *mem) {
+  size_t y = (size_t)clamped(row, l->map.height), w = (size_t)l->map.width;
+  const vec3 *pixels = l->map.pixels + y * w;
+  float *values = ARENA_NEW(mem, float, w);
+  for (size_t i = 0; i < w; i++)
+    values[i] = above(l, pixels[i]) * l->scale[y];
+  return values;
+}
+
 static void weigh_row(void *context, size_t item, int worker) {
   (void)worker;
   row_job *job = context;
   light_env *l = job->light;
   int j = (int)item, w = l->map.width;
   float *values = job->values + item * (size_t)w;
-  for (int i = 0; i < w; i++) {
-    corners at = corners_of(l, i, j);
-    cell c = cell_of(l, &at);
+  arena scratch = {0};
+  float *high = weigh_texels(l, j - 1, &scratch);
+  float *low = weigh_texels(l, j, &scratch);
+  for (int i = 0, left = w - 1; i < w; left = i++) {
+    cell c = {high[left], high[i], low[left], low[i]};
     values[i] = cell_mean(&c);
   }
+  arena_free(&scratch);
   double sum;
   pick_weigh(&l->columns[j], values, &sum);
   job->sums[j] = (float)sum * cell_height(l, j);
@@ -148,8 +159,13 @@ static void weigh(light_env *l, float unit, arena *mem, pool *threads) {
   double cells = (double)width * (double)l->map.height;
   double mean = sum / cells * (double)unit;  // of radiance times sine
   l->irradiance = (float)(mean * (double)(PI * PI / 2)) * l->env->scale;
-  l->rest = PI * l->mean * l->env->scale - l->irradiance;
+  l->rest = float_max(PI * l->mean * l->env->scale - l->irradiance, 0);
   arena_free(&scratch);
+}
+
+static void fill(light_env *l, arena *mem, pool *threads) {
+  float unit = measure(l, mem);
+  if (unit > 0) weigh(l, unit, mem, threads);
 }
 
 void light_env_build(light_env *out, const env *e, arena *mem, pool *threads) {
@@ -158,8 +174,15 @@ void light_env_build(light_env *out, const env *e, arena *mem, pool *threads) {
   if (e->kind == ENV_MAP && e->map.pixels == NULL) return;
   if (!(e->scale > 0)) return;
   out->map = e->kind == ENV_SKY ? sky_map(e, mem) : e->map;
-  float unit = measure(out, mem);
-  if (unit > 0) weigh(out, unit, mem, threads);
+  out->less = out->mean = mean_and_peak(&out->map, &out->peak);
+  fill(out, mem, threads);
+}
+
+void light_env_whole(light_env *out, const light_env *of, arena *mem,
+                     pool *threads) {
+  *out = *of;
+  out->less = 0;
+  if (of->map.pixels != NULL) fill(out, mem, threads);
 }
 
 // Where in [0, 1) a density falls that runs from a to b; not both 0.
@@ -185,7 +208,7 @@ static float per_steradian(float pdf, float v) {
 }
 
 static light_env_spot find_row(const light_env *l, vec2 u) {
-  light_env_spot s = {.u = u};
+  light_env_spot s = {.unit = (double)u.x * PICK_UNITS, .u = u};
   s.row = (int)pick_at(&l->rows, &s.u.y, &s.share);
   pick_expect(&l->columns[s.row], u.x);
   return s;
@@ -193,7 +216,7 @@ static light_env_spot find_row(const light_env *l, vec2 u) {
 
 void light_env_find_column(const light_env *l, light_env_spot *s) {
   float share;
-  s->column = (int)pick_at(&l->columns[s->row], &s->u.x, &share);
+  s->column = (int)pick_unit(&l->columns[s->row], s->unit, &s->u.x, &share);
   s->share *= share;
   corners at = corners_of(l, s->column, s->row);
   __builtin_prefetch(at.above + at.left);

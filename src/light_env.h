@@ -13,17 +13,22 @@
 // environment has no table.  Source: Karlik et al. 2019, "MIS Compensation".
 typedef struct light_env {
   const env *env;
-  image map;      // env's, or the built-in sky as one
-  float mean;     // of its radiance
-  float *scale;   // by row: of what is above the mean, so that it is 1 at most,
-                  // times the sine of the angle to +Y
-  pick rows;      // of cells: one more, the first and the last half as high
-  pick *columns;  // as many cells as texels, of each row
+  image map;         // env's, or the built-in sky as one
+  float mean, peak;  // of its radiance
+  float less;        // what the table leaves out everywhere: the mean, or 0
+  float *scale;      // by row: of what is above that, so that it is 1 at most,
+                     // times the sine of the angle to +Y
+  pick rows;         // of cells: one more, the first and the last half as high
+  pick *columns;     // as many cells as texels, of each row
   float irradiance;  // what the table stands for, on a plane, roughly; 0: none
   float rest;        // what it leaves out, likewise
 } light_env;
 
 void light_env_build(light_env *out, const env *e, arena *mem, pool *threads);
+
+// Another table over the same map, which leaves out nothing.
+void light_env_whole(light_env *out, const light_env *of, arena *mem,
+                     pool *threads);
 
 // A unit direction, the radiance from there and the density per steradian with
 // which it comes; 0 when there is none.
@@ -50,11 +55,12 @@ float light_env_density(const light_env *l, vec2 uv);
 // find it, and its probability, so far that of its row.
 typedef struct light_env_spot {
   int column, row;
+  double unit;  // that picks the column: see pick.h
   vec2 u;
   float share;
 } light_env_spot;
 
-// What light_env_samples does next: find the column by s->u.x, and let texels
+// What light_env_samples does next: find the column by s->unit, and let texels
 // come nearer; and last, find the direction.
 void light_env_find_column(const light_env *l, light_env_spot *s);
 env_sample light_env_sample_cell(const light_env *l, const light_env_spot *s);

@@ -24,10 +24,18 @@ enum { NEAR = 3, SOME = GRID / NEAR, REGIONS = SOME * SOME * SOME * SIDES };
 // What a question costs, over all else that a path does at a vertex.
 #define COST 0.25
 
-// The relative variance of all light that nobody is asked for, and how much of
-// it there is by way of other surfaces: a share of the usual light.
+// The relative variance of all light, whoever finds it.
 #define OTHER_NOISE 0.3
-#define INDIRECT 0.1
+
+// What surfaces around send back of the usual light.
+#define AROUND 0.5
+
+// The least quotient of the densities of scattered rays and of a question, the
+// least weight of a question, and the least share of scattered rays that meet
+// surfaces.
+#define LEAST_SCATTERED 0.01
+#define LEAST_WEIGHT 1e-6
+#define LEAST_HIDDEN 0.01
 
 // Where there are more cells than numbers for them, the rest learns nothing.
 enum { MOST_CELLS = 1 << 16 };
@@ -64,7 +72,7 @@ bool light_memory_new(light_memory *out, const float *power, uint32_t count,
   for (uint32_t i = 0; i < count; i++)
     sum += power[i];
   for (uint32_t i = 0; i < count; i++) {
-    m.power[i] = power[i];
+    m.power[i] = m.usual[i] = power[i];
     weights[i] = power[i] / sum;
   }
   m.cell_of = ARENA_NEW(mem, uint16_t, KEYS);
@@ -74,10 +82,10 @@ bool light_memory_new(light_memory *out, const float *power, uint32_t count,
   return true;
 }
 
-// What is known of a part in a cell: sums over `asked` questions, of weights
-// and of weighted finds.
+// What is known of a part in a cell: sums over `asked` questions, of what they
+// found, of its squares, and of those over the density of scattered rays.
 typedef struct lore {
-  double asked, weights, finds, squares;
+  double asked, finds, squares, alone;
 } lore;
 
 // What that means: the irradiance; the mean square of a find; and the
@@ -86,10 +94,11 @@ typedef struct view {
   double mean, square, scattered;
 } view;
 
-// All parts from a cell, and all light that is there.
+// All parts from a cell; all light that is there; what of it comes from
+// surfaces around, and the share of scattered rays that go to them.
 typedef struct outlook {
   view of[LIGHT_PARTS_MOST];
-  double light;
+  double light, around, hidden;
 } outlook;
 
 // Learning: lore by cell and part, the first cell for all; the same for
@@ -97,6 +106,7 @@ typedef struct outlook {
 typedef struct school {
   light_memory *m;
   double share[LIGHT_PARTS_MOST];  // of the power
+  double usual_share[LIGHT_PARTS_MOST];
   lore *of, *region;
   uint32_t *key_of, *visits;  // by cell
   uint32_t cells, parts;
@@ -112,13 +122,12 @@ static uint32_t region_of(uint32_t key) {
 // What a cell knows, with so much of what others know.
 static lore refine(const lore *own, lore others) {
   double k = others.asked > 0 ? (double)SHARED / others.asked : 0;
-  return (lore){
-      own->asked + k * others.asked, own->weights + k * others.weights,
-      own->finds + k * others.finds, own->squares + k * others.squares};
+  return (lore){own->asked + k * others.asked, own->finds + k * others.finds,
+                own->squares + k * others.squares,
+                own->alone + k * others.alone};
 }
 
-// The density of scattered rays over that of a question is taken to be the
-// same all over a part: weights then are 1 / (1 + their quotient).
+// Exact where only questions go to the part, and where only scattered rays do.
 static view view_of(const school *s, uint32_t cell, uint32_t part) {
   lore l = s->of[part];
   if (cell > 0) {
@@ -126,59 +135,88 @@ static view view_of(const school *s, uint32_t cell, uint32_t part) {
     l = refine(&s->region[region * s->parts + part], l);
     l = refine(&s->of[(size_t)cell * s->parts + part], l);
   }
-  if (!(l.weights > 0)) return (view){0, 0, 0};
-  return (view){l.finds / l.weights, l.squares / l.weights,
-                s->share[part] * fmax(l.asked / l.weights - 1, 0)};
+  if (!(l.squares > 0)) return (view){0, 0, 0};
+  return (view){l.finds / l.asked, l.squares / l.asked, l.squares / l.alone};
 }
 
 static outlook outlook_of(const school *s, uint32_t cell) {
-  outlook o = {.light = (double)s->m->rest + INDIRECT * s->usual};
+  outlook o = {.light = (double)s->m->rest, .hidden = 1};
   for (uint32_t i = 0; i < s->parts; i++) {
-    o.of[i] = view_of(s, cell, i);
-    o.light += o.of[i].mean;
+    view v = o.of[i] = view_of(s, cell, i);
+    o.light += v.mean;
+    if (v.square > 0) o.hidden -= v.scattered * v.mean * v.mean / v.square;
   }
+  o.hidden = fmin(fmax(o.hidden, LEAST_HIDDEN), 1);
+  o.around = AROUND * s->usual * o.hidden;
+  o.light += o.around;
   return o;
 }
 
-// The mean square of what both ways find together, with p for questions.
-static double noise_of(const outlook *o, uint32_t n, const double *p) {
-  double sum = OTHER_NOISE * o->light * o->light;
-  for (uint32_t i = 0; i < n; i++)
-    if (o->of[i].square > 0)
-      sum += o->of[i].square / (p[i] + o->of[i].scattered);
-  return sum;
+// What a question and a scattered ray find on average, with p for questions,
+// and the variance of both together.
+typedef struct finds {
+  double asked, scattered, variance;
+} finds;
+
+static finds finds_of(const outlook *o, uint32_t n, const double *p) {
+  finds f = {.scattered = o->around};
+  double squares = OTHER_NOISE * o->light * o->light;
+  squares += o->around * o->around / o->hidden;
+  for (uint32_t i = 0; i < n; i++) {
+    const view *v = &o->of[i];
+    if (!(v->square > 0)) continue;
+    double both = 1 / (p[i] + v->scattered);
+    f.asked += v->mean * p[i] * both;
+    f.scattered += v->mean * v->scattered * both;
+    squares += v->square * both;
+  }
+  f.variance = squares - f.asked * f.asked - f.scattered * f.scattered;
+  return f;
+}
+
+// The best densities of both ways together are in proportion to these.
+static void weigh_roots(const outlook *o, uint32_t n, const finds *f,
+                        double *roots) {
+  double ahead = 2 * (f->scattered - f->asked);
+  for (uint32_t i = 0; i < n; i++) {
+    const view *v = &o->of[i];
+    roots[i] = sqrt(fmax(v->square - ahead * v->mean * v->scattered, 0));
+  }
 }
 
 // The factor of the roots with which all of one question is dealt out.
-static double whole_question(const outlook *o, uint32_t n) {
+static double whole_question(const outlook *o, uint32_t n,
+                             const double *roots) {
   double factor = HUGE_VAL;
   for (bool again = true; again;) {
-    double budget = 1, roots = 0, before = factor;
+    double budget = 1, sum = 0, before = factor;
     for (uint32_t i = 0; i < n; i++) {
-      double root = sqrt(o->of[i].square);
-      if (!(root * before > o->of[i].scattered)) continue;
+      if (!(roots[i] * before > o->of[i].scattered)) continue;
       budget += o->of[i].scattered;
-      roots += root;
+      sum += roots[i];
     }
-    if (roots > 0) factor = budget / roots;
-    again = roots > 0 && factor < before;
+    if (sum > 0) factor = budget / sum;
+    again = sum > 0 && factor < before;
   }
   return factor;
 }
 
-// The best densities of both ways together are as the roots of the mean
-// squares; what scattered rays give is left away.  One more question is worth
-// its cost where that is the share of the noise that it takes away.  The
-// result is how often to ask at all.
+// What scattered rays give is left away.  One more question is worth its cost
+// where that is the share of the noise that it takes away.  Each round goes
+// half of the way: the roots depend on p.  The result is how often to ask at
+// all.
 static double deal(const outlook *o, uint32_t n, double *p) {
-  double most = whole_question(o, n), asked = 1;
-  enum { ROUNDS = 4 };
+  double asked = 1, roots[LIGHT_PARTS_MOST];
+  enum { ROUNDS = 6 };
   for (int k = 0; k < ROUNDS; k++) {
-    double factor = fmin(most, 1 / sqrt(COST * noise_of(o, n, p)));
+    finds f = finds_of(o, n, p);
+    weigh_roots(o, n, &f, roots);
+    double factor =
+        fmin(whole_question(o, n, roots), 1 / sqrt(COST * fmax(f.variance, 0)));
     asked = 0;
     for (uint32_t i = 0; i < n; i++) {
-      double root = sqrt(o->of[i].square);
-      p[i] = root > 0 ? fmax(root * factor - o->of[i].scattered, 0) : 0;
+      double best = roots[i] > 0 ? roots[i] * factor - o->of[i].scattered : 0;
+      p[i] = (p[i] + fmax(best, 0)) / 2;
       asked += p[i];
     }
   }
@@ -194,7 +232,7 @@ static light_cell conclude(school *s, uint32_t cell) {
   double asked = deal(&o, s->parts, p), sure = 1 - (double)DOUBT;
   double doubt = fmax(asked, (double)LEAST_ASKED) - sure * asked;
   for (uint32_t i = 0; i < s->parts; i++)
-    weights[i] = (float)(sure * p[i] + doubt * s->share[i]);
+    weights[i] = (float)(sure * p[i] + doubt * s->usual_share[i]);
   return cell_of_weights(s->m, weights);
 }
 
@@ -216,18 +254,20 @@ static double gain_of(const school *s) {
     outlook o = outlook_of(s, cell);
     double times = s->visits[cell] / (o.light * o.light);
     if (!isfinite(times)) continue;
-    with += times * noise_of(&o, s->parts, p) * (1 + COST * asked);
-    without += times * noise_of(&o, s->parts, s->share) * (1 + COST);
+    with += times * finds_of(&o, s->parts, p).variance * (1 + COST * asked);
+    without +=
+        times * finds_of(&o, s->parts, s->usual_share).variance * (1 + COST);
   }
   return with > 0 ? without / with : 0;
 }
 
-static void note(lore *l, const light_record *r) {
-  double weight = (double)r->weight, find = (double)r->found * weight;
+static void note(lore *l, const light_record *r, double share) {
+  double find = (double)r->found;
+  double scattered = 1 / fmax((double)r->weight, LEAST_WEIGHT) - 1;
   l->asked++;
-  l->weights += weight;
   l->finds += find;
-  l->squares += find * (double)r->found;
+  l->squares += find * find;
+  l->alone += find * find / (share * fmax(scattered, LEAST_SCATTERED));
 }
 
 static void attend(school *s, const light_record *records, size_t n) {
@@ -235,18 +275,23 @@ static void attend(school *s, const light_record *records, size_t n) {
     const light_record *r = &records[i];
     size_t cell = s->m->cell_of[r->key];
     s->visits[cell]++;
-    note(&s->of[r->part], r);
-    note(&s->of[cell * s->parts + r->part], r);
-    note(&s->region[region_of(r->key) * s->parts + r->part], r);
+    double share = s->share[r->part];
+    note(&s->of[r->part], r, share);
+    note(&s->of[cell * s->parts + r->part], r, share);
+    note(&s->region[region_of(r->key) * s->parts + r->part], r, share);
   }
 }
 
 static void weigh_powers(school *s) {
-  double sum = 0;
-  for (uint32_t i = 0; i < s->parts; i++)
+  double sum = 0, usual = 0;
+  for (uint32_t i = 0; i < s->parts; i++) {
     sum += (double)s->m->power[i];
-  for (uint32_t i = 0; i < s->parts; i++)
+    usual += (double)s->m->usual[i];
+  }
+  for (uint32_t i = 0; i < s->parts; i++) {
     s->share[i] = (double)s->m->power[i] / sum;
+    s->usual_share[i] = (double)s->m->usual[i] / usual;
+  }
 }
 
 double light_memory_learn(light_memory *m, const light_record *records,

@@ -33,8 +33,9 @@ typedef struct light_cell {
 // surface may face.
 typedef struct light_memory {
   float power[LIGHT_PARTS_MOST];
-  uint32_t count;  // parts
-  float rest;      // the irradiance that nobody is asked for, roughly
+  float usual[LIGHT_PARTS_MOST];  // of who would be asked without a memory
+  uint32_t count;                 // parts
+  float rest;  // the irradiance that nobody is asked for, roughly
   vec3 lo;
   float per_unit;     // cells along a unit of length
   uint16_t *cell_of;  // by key

@@ -187,11 +187,24 @@ bool light_sky_of(light_sky *out, const light_env *of, uint32_t most,
   return true;
 }
 
-// The number of [0, 1) that picks, of all columns of a row, what u picks of
-// those of a part.
-static float within(const light_sky_row *r, float u) {
-  double unit = r->first + (double)u * (r->last - r->first);
-  return (float)(fmin(unit, r->last - 1u) / PICK_UNITS);
+void light_sky_usual(const light_sky *s, const light_env *of, float *power) {
+  arena scratch = {0};
+  cutter c = {.env = of};
+  fill_tiles(&c, &scratch);
+  double sum[LIGHT_PARTS_MOST] = {0}, all = 0;
+  for (int i = 0; i < c.across * c.down; i++) {
+    sum[s->part_of[i]] += c.tiles[i].power;
+    all += c.tiles[i].power;
+  }
+  for (uint32_t k = 0; k < s->count; k++)
+    power[k] = (float)(sum[k] / all);
+  arena_free(&scratch);
+}
+
+// The unit that picks, of all columns of a row, what u picks of those of a
+// part.
+static double within(const light_sky_row *r, float u) {
+  return r->first + (double)u * (r->last - r->first);
 }
 
 static light_env_spot find_row(const light_sky *s, uint32_t part, vec2 u) {
@@ -200,7 +213,8 @@ static light_env_spot find_row(const light_sky *s, uint32_t part, vec2 u) {
   float share;
   uint32_t k = pick_at(&p->rows, &spot.u.y, &share);
   spot.row = p->row + (int)k;
-  spot.u.x = within(&p->of_row[k], u.x);
+  spot.unit = within(&p->of_row[k], u.x);
+  spot.u.x = (float)(spot.unit / PICK_UNITS);
   spot.share = p->of_row[k].each;
   pick_expect(&s->env->columns[spot.row], spot.u.x);
   return spot;

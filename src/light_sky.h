@@ -37,6 +37,9 @@ typedef struct light_sky {
 bool light_sky_of(light_sky *out, const light_env *of, uint32_t most,
                   arena *mem);
 
+// The shares that its parts have of what another table over the same map holds.
+void light_sky_usual(const light_sky *s, const light_env *of, float *power);
+
 // A direction of a part by two uniform numbers, with its density there.
 env_sample light_sky_sample(const light_sky *s, uint32_t part, vec2 u);
 
@@ -44,7 +47,7 @@ env_sample light_sky_sample(const light_sky *s, uint32_t part, vec2 u);
 void light_sky_samples(const light_sky *s, const uint32_t *part, const vec2 *u,
                        size_t n, env_sample *out);
 
-// What a part has above the mean, over the density of light_sky_sample: the
+// What a part has in the table, over the density of light_sky_sample: the
 // same all over it.
 float light_sky_worth(const light_sky *s, uint32_t part);
 

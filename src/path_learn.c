@@ -154,7 +154,7 @@ bool path_learn(light_set *lights, const path_tracer *by,
   light_memory *near = light_set_cut(lights, lo, hi, mem);
   bool learned = study(lights, near, &job, mem, threads);
   if (!learned) {
-    light_memory *sky = light_set_cut_sky(lights, lo, hi, mem);
+    light_memory *sky = light_set_cut_sky(lights, lo, hi, mem, threads);
     learned = study(lights, sky, &job, mem, threads);
   }
   arena_free(&scratch);

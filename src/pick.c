@@ -58,8 +58,7 @@ void pick_search(const pick *p, float u) {
   __builtin_prefetch(&p->upto[p->guide[entry_of(p, unit_of(u))] + 1]);
 }
 
-uint32_t pick_at(const pick *p, float *u, float *share) {
-  float at = *u * (float)PICK_UNITS;
+uint32_t pick_unit(const pick *p, double at, float *rest, float *share) {
   uint32_t unit = (uint32_t)at, e = entry_of(p, unit);
   uint32_t lo = p->guide[e], hi = p->guide[e + 1];
   while (lo < hi) {
@@ -69,11 +68,14 @@ uint32_t pick_at(const pick *p, float *u, float *share) {
     else
       lo = middle + 1;
   }
-  float units = (float)(p->upto[lo + 1] - p->upto[lo]);
-  float rest = (at - (float)p->upto[lo]) / units;
-  *u = rest < FLOAT_BELOW_1 ? rest : FLOAT_BELOW_1;
-  *share = units / (float)PICK_UNITS;
+  double units = p->upto[lo + 1] - p->upto[lo];
+  *rest = float_min((float)((at - p->upto[lo]) / units), FLOAT_BELOW_1);
+  *share = (float)(units / PICK_UNITS);
   return lo;
+}
+
+uint32_t pick_at(const pick *p, float *u, float *share) {
+  return pick_unit(p, (double)*u * PICK_UNITS, u, share);
 }
 
 float pick_share(const pick *p, uint32_t i) {

@@ -29,6 +29,10 @@ void pick_weigh(pick *p, const float *weights, double *sum);
 // where in its share u was, again in [0, 1).
 uint32_t pick_at(const pick *p, float *u, float *share);
 
+// What u = unit / PICK_UNITS picks, where units may be parted further than u
+// is; *rest is where in its share it was.
+uint32_t pick_unit(const pick *p, double unit, float *rest, float *share);
+
 // pick_at in three steps, each of which lets memory come nearer for the next:
 // pick_expect(p, u), pick_search(p, u), pick_at(p, &u, &share).
 void pick_expect(const pick *p, float u);

@@ -170,6 +170,86 @@ static void questions_help(void **state) {
   world_free(w);
 }
 
+// A sky over a plane in rings, as wide as high, of which LAMP is `bright` times
+// as bright as the others.  Questions go to all directions of a ring alike,
+// scattered rays by the cosine.
+enum { RINGS = 16, LAMP = 5 };
+
+static float ring_radiance(uint32_t ring, float bright) {
+  return ring == LAMP ? bright : 1;
+}
+
+static const vec3 UP = {0, 1, 0};
+static const float RING = 2 * PI / RINGS;  // steradians
+
+// What a memory, which has learned nothing, learns of it.
+static double sky_lesson(light_memory *m, float bright, arena *mem) {
+  enum { EACH = 2000, COUNT = RINGS * EACH };
+  float power[RINGS], all = RINGS - 1 + bright;
+  for (uint32_t i = 0; i < RINGS; i++)
+    power[i] = ring_radiance(i, bright);
+  assert_true(
+      light_memory_new(m, power, RINGS, vec3_all(-1), vec3_all(1), mem));
+  light_record *records = ARENA_NEW(mem, light_record, COUNT);
+  rng r = rng_of(8, 0, 0);
+  for (uint32_t i = 0; i < COUNT; i++) {
+    uint32_t ring = i / EACH;
+    float cosine = ((float)ring + rng_next(&r)) / RINGS;
+    float asked = power[ring] / all / RING, scattered = cosine / PI;
+    records[i] = (light_record){light_memory_key(m, vec3_all(0), UP), ring,
+                                power[ring] * cosine * RING,
+                                asked / (asked + scattered)};
+  }
+  return light_memory_learn(m, records, COUNT, mem);
+}
+
+// By brute force: the variance of questions with probabilities p and scattered
+// rays together, over the square of all light.
+static double sky_variance(const double *p, float bright) {
+  enum { STEPS = 1000 };
+  double squares = 0, asked = 0, scattered = 0, ring = (double)RING;
+  for (uint32_t i = 0; i < RINGS * STEPS; i++) {
+    double cosine = (i + 0.5) / (RINGS * STEPS);
+    double f = (double)ring_radiance(i / STEPS, bright) * cosine;
+    double q = p[i / STEPS] / ring, b = cosine / (double)PI;
+    double d = ring / STEPS / (q + b);
+    squares += f * f * d;
+    asked += f * q * d;
+    scattered += f * b * d;
+  }
+  double sum = asked + scattered;
+  return (squares - asked * asked - scattered * scattered) / (sum * sum);
+}
+
+// What is left of the noise of questions by power, also as the memory says
+// itself; even skies have none.
+static void knows_what_it_gains(void **state) {
+  (void)state;
+  arena mem = {0};
+  float bright[] = {1, 3, 30, 1000};
+  for (int i = 0; i < 4; i++) {
+    light_memory m;
+    double said = sky_lesson(&m, bright[i], &mem), p[RINGS], by_power[RINGS];
+    double asked = 0;
+    for (uint32_t k = 0; k < RINGS; k++) {
+      uint32_t key = light_memory_key(&m, vec3_all(0), UP);
+      p[k] = (double)light_memory_share(&m, key, k);
+      asked += p[k];
+      by_power[k] =
+          (double)(ring_radiance(k, bright[i]) / (RINGS - 1 + bright[i]));
+    }
+    double after = sky_variance(p, bright[i]);
+    double before = sky_variance(by_power, bright[i]);
+    double gain = (before + 0.3) / (after + 0.3) * 1.25 / (1 + 0.25 * asked);
+    print_message("# lamp %g: variance %.4f and %.4f, gain %.4f, said %.4f\n",
+                  (double)bright[i], before, after, gain, said);
+    assert_true(after < before * 1.01);
+    assert_true(i > 0 || after < 0.01);
+    assert_true(fabs(said / gain - 1) < 0.02);
+  }
+  arena_free(&mem);
+}
+
 static void same_memory(void **state) {
   (void)state;
   world *w = room_with_hole(1);
@@ -209,6 +289,7 @@ int main(void) {
       cmocka_unit_test(lies_do_no_harm),
       cmocka_unit_test(memory_helps),
       cmocka_unit_test(questions_help),
+      cmocka_unit_test(knows_what_it_gains),
       cmocka_unit_test(same_memory),
       cmocka_unit_test(nothing_to_remember),
   };

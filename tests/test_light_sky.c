@@ -92,10 +92,13 @@ static void samples_of_parts_follow_their_density(void **state) {
   (void)state;
   arena mem = {0};
   counts *want = calloc(1, sizeof *want);
-  for (map_kind kind = 0; kind < MAP_KINDS; kind++) {
+  for (int i = 0; i < 2 * MAP_KINDS; i++) {
+    map_kind kind = (map_kind)(i / 2);
     env e = env_of(kind, &mem);
-    light_env table;
-    light_env_build(&table, &e, &mem, NULL);
+    light_env bright, table;
+    light_env_build(&bright, &e, &mem, NULL);
+    table = bright;
+    if (i % 2 == 1) light_env_whole(&table, &bright, &mem, NULL);
     light_sky s;
     assert_true(light_sky_of(&s, &table, LIGHT_PARTS_MOST, &mem));
     memset(want, 0, sizeof *want);
@@ -105,8 +108,9 @@ static void samples_of_parts_follow_their_density(void **state) {
       power += (double)s.power[k];
       least = fmin(least, check_part(&s, k, (*want)[k]));
     }
-    print_message("# map %d: %u parts, power %.6f, least p %.2g\n", (int)kind,
-                  s.count, power, least);
+    print_message("# map %d, %s: %u parts, power %.6f, least p %.2g\n",
+                  (int)kind, i % 2 == 1 ? "whole" : "above the mean", s.count,
+                  power, least);
     assert_true(fabs(power - 1) < 1e-6 && least > LEAST_PROBABILITY);
   }
   free(want);
@@ -235,7 +239,7 @@ static void lies_do_no_harm(void **state) {
   yard_walker(&k, w);
   render_result plain = walker_draw(&k, 64, NULL);
   light_memory *m =
-      light_set_cut_sky(&k.lights, w->scene.lo, w->scene.hi, &w->mem);
+      light_set_cut_sky(&k.lights, w->scene.lo, w->scene.hi, &w->mem, NULL);
   assert_non_null(m);
   light_record records[600];
   for (uint32_t i = 0; i < 600; i++) {
