@@ -41,7 +41,7 @@ CHAPTER_2 := $(CHAPTER_1) cpu_quota pool number text path_find polygon \
              pages obj_chunk obj_line obj_parse obj_pack obj_merge obj_events obj normals
 CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material \
              statement scene_file mesh_join material_list scene scene_text
-CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah_box sah bvh_part bvh_read bvh_build rays rays_make
+CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah_box sah bvh_part bvh_read bvh_build build_avx2 build_avx512 rays rays_make
 CHAPTER_5 := $(CHAPTER_4) gl_api gl gl_make glsl raster_settings raster_block raster_mesh \
              raster_maps raster_program raster_seen raster_shadow raster_view raster_stock \
              raster_pass raster_once raster
@@ -103,8 +103,8 @@ $(B)/%.o: %.c Makefile
 # asks the processor which it has.
 ifneq (,$(findstring x86_64,$(shell $(CC) -dumpmachine)))
 AVX2 := -mavx2 -mfma -mbmi -mbmi2
-$(B)/src/wide_avx2.o $(B)/src/ready_avx2.o: FLAGS += $(AVX2)
-$(B)/src/wide_avx512.o $(B)/src/ready_avx512.o: FLAGS += $(AVX2) -mavx512f -mavx512vl -mavx512dq -mavx512bw
+$(B)/src/build_avx2.o $(B)/src/wide_avx2.o $(B)/src/ready_avx2.o: FLAGS += $(AVX2)
+$(B)/src/build_avx512.o $(B)/src/wide_avx512.o $(B)/src/ready_avx512.o: FLAGS += $(AVX2) -mavx512f -mavx512vl -mavx512dq -mavx512bw
 endif
 
 # Loops over lanes become vector instructions where nothing else is asked of

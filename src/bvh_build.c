@@ -11,6 +11,8 @@
 #include "clock.h"
 
 #include <string.h>
+extern const bvh_hands *HANDS;
+const bvh_hands *HANDS;
 
 // At most SMALL triangles, or 1 / TASKS of all, are a task; CHUNK of them are
 // binned or moved in one go.
@@ -47,6 +49,7 @@ typedef struct builder {
   bvh *out;
   bvh_method method;
   pool *threads;
+  bvh_hands hands;
   uint32_t small;         // so many triangles or fewer are a task
   sah_ref *refs, *spare;  // the level's refs, and where the next level's go
   level_node *level, *next_level;
@@ -68,8 +71,7 @@ static void bin_chunk(void *context, size_t item, int worker) {
   level_chunk *c = &b->chunks[item];
   const sah_grid *g = &c->node->cut.grid;
   if (g->bins == 0) return;
-  sah_bins_clear(&c->bins, g);
-  sah_bins_add(&c->bins, g, b->refs + c->begin, c->end - c->begin);
+  b->hands.bin(&c->bins, g, b->refs + c->begin, c->end - c->begin);
 }
 
 // How many refs of a chunk go left; its bins know.
@@ -117,6 +119,12 @@ static void move_chunk(void *context, size_t item, int worker) {
   (void)worker;
   builder *b = context;
   level_chunk *c = &b->chunks[item];
+  if (c->node->cut.split.axis >= 0) {
+    bvh_move m = {&c->node->cut, b->refs + c->begin, c->end - c->begin, {b->spare + c->to[0], b->spare + c->to[1]}, {{{0},{0}},{{0},{0}}}};
+    if (b->hands.move) { b->hands.move(&m); c->centres[0] = m.centres[0];
+    c->centres[1] = m.centres[1];
+    return; }
+  }
   bvh_part side[2] = {{.begin = c->to[0]}, {.begin = c->to[1]}};
   sah_ref *left = b->spare + c->to[0], *right = b->spare + c->to[1];
   for (uint32_t i = c->begin; i < c->end; i++) {
@@ -231,7 +239,7 @@ static void run_task(void *context, size_t item, int worker) {
   task_room *room = &b->rooms[worker];
   t->nodes = room->nodes;
   t->spare = room->spare;
-  bvh_task_run(t);
+  b->hands.task(t);
   t->nodes = ARENA_NEW(&room->done, bvh_node, t->node_count);
   memcpy(t->nodes, room->nodes, t->node_count * sizeof *t->nodes);
   for (uint32_t i = t->root.begin; i < t->root.end; i++)
@@ -293,6 +301,10 @@ static void build_tasks(builder *b, arena *mem, arena *refs, arena *scratch) {
     arena_free(&b->rooms[i].done);
 }
 
+static void plain_bin(sah_bins *bins, const sah_grid *g, const sah_ref *refs, size_t n) {
+  sah_bins_clear(bins, g);
+  sah_bins_add(bins, g, refs, n);
+}
 void bvh_build_source(bvh *out, const bvh_source *from, arena *mem,
                       pool *threads) {
   arena scratch = {0};
@@ -300,6 +312,7 @@ void bvh_build_source(bvh *out, const bvh_source *from, arena *mem,
                .method = from->method,
                .threads = threads,
                .refs = from->refs};
+  b.hands = from->hands ? *from->hands : (bvh_hands){plain_bin, NULL, bvh_task_run};
   if (out->kept > 0) {
     build_top(&b, &from->root, from->mem, &scratch);
     build_tasks(&b, mem, from->mem, &scratch);
@@ -317,6 +330,7 @@ void bvh_build(bvh *out, const vec3 *positions, const uint32_t *index,
       .positions = positions, .index = index, .triangle_count = triangle_count};
   arena refs = {0};
   bvh_source from = {.method = method, .mem = &refs};
+  from.hands = HANDS;
   from.root = bvh_read(&from.refs, out, 0, &refs, threads);
   bvh_build_source(out, &from, mem, threads);
   out->seconds = clock_seconds() - start;

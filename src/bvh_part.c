@@ -16,7 +16,7 @@ static int halvings(uint32_t n) {
 }
 
 // Slices for a node of n triangles: few triangles need few.
-static int bins_for(uint32_t n, bvh_method method) {
+int bvh_bins_for(uint32_t n, bvh_method method) {
   if (method == BVH_MEDIAN) return 2;
   int most = method == BVH_SAH_16 ? 16 : method == BVH_SAH_8 ? 8 : SAH_MAX_BINS;
   int bins = n < 8 * SAH_MAX_BINS ? 4 + (int)(n / 8) : SAH_MAX_BINS;
@@ -30,7 +30,7 @@ sah_grid bvh_part_grid(const bvh_part *p, bvh_method method) {
   sah_grid none = {0};
   if (n < 2 || p->depth + halvings(n) >= BVH_MAX_DEPTH) return none;
   if (method == BVH_COARSE && n <= BVH_COARSE_LEAF) return none;
-  sah_grid g = sah_grid_of(&p->centres, bins_for(n, method));
+  sah_grid g = sah_grid_of(&p->centres, bvh_bins_for(n, method));
   bool flat = g.scale[0] == 0 && g.scale[1] == 0 && g.scale[2] == 0;
   return flat ? none : g;
 }
@@ -109,7 +109,7 @@ static void part_by_cut(const bvh_task *t, const bvh_part *p,
 }
 
 // Make node p an inner node and its two parts; false when it became a leaf.
-static bool task_split(bvh_task *t, const bvh_part *p, bvh_part child[2]) {
+bool bvh_task_split(bvh_task *t, const bvh_part *p, bvh_part child[2]) {
   bvh_cut cut = {.grid = bvh_part_grid(p, t->method)};
   sah_bins bins;
   if (cut.grid.bins > 0) {
@@ -145,7 +145,7 @@ void bvh_task_run(bvh_task *t) {
   t->depth = t->root.depth;
   while (top > 0) {
     bvh_part p = stack[--top];
-    while (task_split(t, &p, child)) {
+    while (bvh_task_split(t, &p, child)) {
       stack[top++] = child[1];
       p = child[0];
     }

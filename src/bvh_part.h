@@ -58,6 +58,31 @@ typedef struct bvh_task {
 
 void bvh_task_run(bvh_task *t);
 
+// Make node p of a task an inner node and its two parts; false when it became a
+// leaf.
+bool bvh_task_split(bvh_task *t, const bvh_part *p, bvh_part child[2]);
+
+// Slices for a node of n triangles: few triangles need few.
+int bvh_bins_for(uint32_t n, bvh_method method);
+
+// Refs of a node that is cut, count of them, and where the left and the right
+// ones go, in their order; on return the bounds of the centres of either.
+typedef struct bvh_move {
+  const bvh_cut *cut;
+  const sah_ref *refs;
+  size_t count;
+  sah_ref *to[2];
+  sah_box centres[2];
+} bvh_move;
+
+// Who bins refs, moves them, and does tasks: the functions of this module and
+// of sah, or others that do the same to the bit.
+typedef struct bvh_hands {
+  void (*bin)(sah_bins *bins, const sah_grid *g, const sah_ref *refs, size_t n);
+  void (*move)(bvh_move *m);
+  void (*task)(bvh_task *t);
+} bvh_hands;
+
 // The expected cost of a tree, as in bvh.
 double bvh_cost(const bvh *b);
 

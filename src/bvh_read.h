@@ -18,6 +18,7 @@ typedef struct bvh_source {
   bvh_part root;
   bvh_method method;
   arena *mem;
+  const bvh_hands *hands;  // NULL: this chapter's own
 } bvh_source;
 
 // bvh_build of what bvh_read has counted in *out.

@@ -52,7 +52,7 @@ static void find_bundles(splitter *s, arena *mem, pool *threads) {
   stack[top++] = 0;
   while (top > 0) {
     uint32_t node = stack[--top];
-    if (!wide_is_leaf(b, costs, node)) {
+    if (!wide_is_leaf(&costs[node])) {
       stack[top++] = b->nodes[node].first + 1;
       stack[top++] = b->nodes[node].first;
       continue;
@@ -180,7 +180,7 @@ static void build_cut(bvh *out, splitter *s, arena *mem, pool *threads) {
   const bvh_bundle *last = &s->bundles[s->bundle_count - 1];
   s->parts = ARENA_NEW(&refs, sah_ref, last->at + last->parts);
   pool_run(threads, s->bundle_count / CHUNK + 1, cut_some, s);
-  bvh_source from = {s->parts, join_parts(s), BVH_ONES, &refs};
+  bvh_source from = {s->parts, join_parts(s), BVH_ONES, &refs, NULL};
   bvh tree = {.kept = from.root.end};
   bvh_build_source(&tree, &from, &scratch, threads);
   out->node_count = tree.node_count;

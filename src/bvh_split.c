@@ -326,7 +326,7 @@ void bvh_split_build(bvh *out, const bvh *mesh, double rays, arena *mem,
     out->parts = out->refs - out->kept;
     out->cost = bvh_cost(out);
   } else {
-    bvh_source from = {b.shop.refs[0], root.part, BVH_COARSE, &refs};
+    bvh_source from = {b.shop.refs[0], root.part, BVH_COARSE, &refs, NULL};
     bvh_build_source(out, &from, mem, threads);
   }
   arena_free(&refs);

@@ -11,19 +11,21 @@
 // Children of a node at most, triangles of a leaf at most.
 enum { WIDE = 8, WIDE_LEAF = 8 };
 
-// For each node of the binary tree: the triangles below it, and costs in visits
-// to nodes per random ray.  For i < 7, of[i] is what all below costs as at most
-// i + 1 trees side by side; of[7], as up to 8 of which the node itself is none.
+// For each node of the binary tree: the triangles below it; how it is drawn
+// together where it has 2 to 8 places, three bits each from the lowest: so many
+// of them are its left child's, or with 0 it needs one fewer; and how many wide
+// nodes are below one that stands for it.
 typedef struct wide_cost {
-  float of[WIDE];
-  uint32_t below;
+  uint32_t below, ways, inner;
 } wide_cost;
 
-// The costs of all nodes, in mem; the same for any threads.
+// Of all nodes, in mem; the same for any threads.
 const wide_cost *wide_costs_of(const bvh *b, arena *mem, pool *threads);
 
 // Whether all below a node is cheapest as one leaf.
-bool wide_is_leaf(const bvh *b, const wide_cost *costs, uint32_t node);
+static inline bool wide_is_leaf(const wide_cost *c) {
+  return c->ways >> 31 != 0;
+}
 
 // The cheapest children of a node of the wide tree that stands for all below
 // node `from`; their number.

@@ -137,7 +137,7 @@ static uint32_t write_node(const collapse *c, collapse_part *p,
     quantise_axis(w, 0, i, box->lo.x, box->hi.x);
     quantise_axis(w, 1, i, box->lo.y, box->hi.y);
     quantise_axis(w, 2, i, box->lo.z, box->hi.z);
-    if (wide_is_leaf(c->b, c->costs, child[i])) {
+    if (wide_is_leaf(&c->costs[child[i]])) {
       w->child[i] = write_leaf(c, child[i]);
       continue;
     }
@@ -153,25 +153,8 @@ static uint32_t inner_children(const collapse *c, uint32_t from,
   uint32_t child[WIDE], inner = 0;
   uint32_t n = wide_children(c->b, c->costs, from, child);
   for (uint32_t i = 0; i < n; i++)
-    if (!wide_is_leaf(c->b, c->costs, child[i])) items[inner++].from = child[i];
+    if (!wide_is_leaf(&c->costs[child[i]])) items[inner++].from = child[i];
   return inner;
-}
-
-// How many nodes a part has below its root.
-static void count_part(void *context, size_t item, int worker) {
-  (void)worker;
-  const collapse *c = context;
-  collapse_part *p = &c->parts[item];
-  collapse_item items[ITEMS + WIDE];
-  uint32_t count = 1;
-  items[0] = p->root;
-  p->next_node = 0;
-  while (count > 0) {
-    uint32_t from = items[--count].from;
-    uint32_t inner = inner_children(c, from, items + count);
-    p->next_node += inner;
-    count += inner;
-  }
 }
 
 static void write_part(void *context, size_t item, int worker) {
@@ -224,9 +207,8 @@ static void write_above(collapse *c) {
   c->out->depth = top.depth;
   for (uint32_t i = 0; i < c->part_count; i++) {
     collapse_part *p = &c->parts[i];
-    uint32_t nodes = p->next_node;
     p->next_node = top.next_node;
-    top.next_node += nodes;
+    top.next_node += c->costs[p->root.from].inner;
   }
 }
 
@@ -253,10 +235,7 @@ void wide_tree_build(wide_tree *out, const bvh *b, arena *mem, pool *threads) {
   memcpy(out->hi, &b->nodes[0].hi, sizeof(vec3));
   out->large = slab_large(&(aabb){b->nodes[0].lo, b->nodes[0].hi});
   find_parts(&c, &scratch);
-  pool_run(threads, c.part_count, count_part, &c);
-  out->node_count = c.above_count + c.part_count;
-  for (uint32_t i = 0; i < c.part_count; i++)
-    out->node_count += c.parts[i].next_node;
+  out->node_count = 1 + c.costs[0].inner;
   out->triangle_count = b->refs;
   wide_tree_room(out, mem);
   write_above(&c);
