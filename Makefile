@@ -41,7 +41,7 @@ CHAPTER_2 := $(CHAPTER_1) cpu_quota pool number text path_find polygon \
              pages obj_chunk obj_line obj_parse obj_pack obj_merge obj_events obj normals
 CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material \
              statement scene_file mesh_join material_list scene scene_text
-CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah_box sah bvh_part bvh_read bvh_build build_avx2 build_avx512 rays rays_make
+CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah_box sah bvh_part bvh_read bvh_build rays rays_make
 CHAPTER_5 := $(CHAPTER_4) gl_api gl gl_make glsl raster_settings raster_block raster_mesh \
              raster_maps raster_program raster_seen raster_shadow raster_view raster_stock \
              raster_pass raster_once raster
@@ -56,8 +56,9 @@ CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
               light_emission light lanes path_plain path_ready aim path_aim path_log path_group path_share path_tracer path_wave path path_learn share_learn \
               aim_photon aim_build aim_learn
 CHAPTER_11 := $(CHAPTER_10) lean raster_lean
-CHAPTER_12 := $(CHAPTER_11) bvh_split_clip bvh_split_bins bvh_split_part bvh_split wide_cost bvh_bundle bvh_shared \
-             simd_base simd_avx2 simd simd_lanes simd_squeeze wide_tree wide_faces wide_above wide_below wide_levels wide_box wide_columns wide_ready wide_packet wide_edges wide_tests wide_distance wide_leaf wide_single wide_push \
+CHAPTER_12 := $(CHAPTER_11) simd_base simd_avx2 simd simd_lanes simd_runs \
+             build_lanes build_bins build_cut build_move build_split build_levels build_avx2 build bvh_split_clip bvh_split_bins bvh_split_part bvh_split wide_cost bvh_bundle bvh_shared \
+             simd_squeeze wide_tree wide_faces wide_above wide_below wide_levels wide_box wide_columns wide_ready wide_packet wide_edges wide_tests wide_distance wide_leaf wide_single wide_push \
              wide_alike wide_gather wide_interval wide_packet_leaf \
              wide_descent wide_flight wide_pending wide_steps wide_start wide_stream wide_crowd wide_crowd_ready wide_part wide_crowd_settle wide_crowd_leaf wide_together wide_kernel wide_base wide_avx2 wide_avx512 wide wide_patch \
              vertex_lanes vertex_lanes_facet vertex_lanes_smooth vertex_lanes_find \
@@ -104,7 +105,7 @@ $(B)/%.o: %.c Makefile
 ifneq (,$(findstring x86_64,$(shell $(CC) -dumpmachine)))
 AVX2 := -mavx2 -mfma -mbmi -mbmi2
 $(B)/src/build_avx2.o $(B)/src/wide_avx2.o $(B)/src/ready_avx2.o: FLAGS += $(AVX2)
-$(B)/src/build_avx512.o $(B)/src/wide_avx512.o $(B)/src/ready_avx512.o: FLAGS += $(AVX2) -mavx512f -mavx512vl -mavx512dq -mavx512bw
+$(B)/src/wide_avx512.o $(B)/src/ready_avx512.o: FLAGS += $(AVX2) -mavx512f -mavx512vl -mavx512dq -mavx512bw
 endif
 
 # Loops over lanes become vector instructions where nothing else is asked of

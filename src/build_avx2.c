@@ -1,4 +1,11 @@
-#include <float.h>
-#include "build_kernel.h"
-extern const bvh_hands build_avx2;
-const bvh_hands build_avx2 = BUILD_HANDS;
+// build_avx2.c — hands for AVX2, where the Makefile could ask for it.
+
+#include "build_levels.h"
+
+#if defined(__AVX2__)
+#include "build_split.h"
+
+const bvh_hands build_avx2 = {bin_lanes, move_lanes, run_lanes};
+#else
+const bvh_hands build_avx2 = {NULL, NULL, NULL};
+#endif

@@ -11,8 +11,6 @@
 #include "clock.h"
 
 #include <string.h>
-extern const bvh_hands *HANDS;
-const bvh_hands *HANDS;
 
 // At most SMALL triangles, or 1 / TASKS of all, are a task; CHUNK of them are
 // binned or moved in one go.
@@ -48,8 +46,8 @@ typedef struct task_room {
 typedef struct builder {
   bvh *out;
   bvh_method method;
+  const bvh_hands *hands;
   pool *threads;
-  bvh_hands hands;
   uint32_t small;         // so many triangles or fewer are a task
   sah_ref *refs, *spare;  // the level's refs, and where the next level's go
   level_node *level, *next_level;
@@ -71,7 +69,7 @@ static void bin_chunk(void *context, size_t item, int worker) {
   level_chunk *c = &b->chunks[item];
   const sah_grid *g = &c->node->cut.grid;
   if (g->bins == 0) return;
-  b->hands.bin(&c->bins, g, b->refs + c->begin, c->end - c->begin);
+  b->hands->bin(&c->bins, g, b->refs + c->begin, c->end - c->begin);
 }
 
 // How many refs of a chunk go left; its bins know.
@@ -119,25 +117,14 @@ static void move_chunk(void *context, size_t item, int worker) {
   (void)worker;
   builder *b = context;
   level_chunk *c = &b->chunks[item];
-  if (c->node->cut.split.axis >= 0) {
-    bvh_move m = {&c->node->cut, b->refs + c->begin, c->end - c->begin, {b->spare + c->to[0], b->spare + c->to[1]}, {{{0},{0}},{{0},{0}}}};
-    if (b->hands.move) { b->hands.move(&m); c->centres[0] = m.centres[0];
-    c->centres[1] = m.centres[1];
-    return; }
-  }
-  bvh_part side[2] = {{.begin = c->to[0]}, {.begin = c->to[1]}};
-  sah_ref *left = b->spare + c->to[0], *right = b->spare + c->to[1];
-  for (uint32_t i = c->begin; i < c->end; i++) {
-    const sah_ref *r = &b->refs[i];
-    bool goes_left = bvh_cut_left(&c->node->cut, &c->node->part, r, i);
-    *(goes_left ? left : right) = *r;
-    left += goes_left;
-    right += !goes_left;
-  }
-  side[0].end = (uint32_t)(left - b->spare);
-  side[1].end = (uint32_t)(right - b->spare);
-  for (int k = 0; k < 2; k++)
-    c->centres[k] = bvh_part_centres(b->spare, &side[k]);
+  bvh_move m = {.part = &c->node->part,
+                .cut = &c->node->cut,
+                .refs = b->refs,
+                .begin = c->begin,
+                .end = c->end,
+                .to = {b->spare + c->to[0], b->spare + c->to[1]}};
+  b->hands->move(&m);
+  memcpy(c->centres, m.centres, sizeof c->centres);
 }
 
 // A finished part joins the tasks or the next level.
@@ -231,19 +218,22 @@ static void build_top(builder *b, const bvh_part *root, arena *refs,
   }
 }
 
-// Build all below a task's root; then neither refs nor the room for nodes that
-// might have been are needed for it.
+// Build all below a task's root; then neither its refs nor the room for nodes
+// that might have been are needed.  Its nodes go to where its refs were, of the
+// same size, unless they are more.
 static void run_task(void *context, size_t item, int worker) {
   builder *b = context;
   bvh_task *t = &b->tasks[item];
   task_room *room = &b->rooms[worker];
   t->nodes = room->nodes;
   t->spare = room->spare;
-  b->hands.task(t);
-  t->nodes = ARENA_NEW(&room->done, bvh_node, t->node_count);
-  memcpy(t->nodes, room->nodes, t->node_count * sizeof *t->nodes);
+  b->hands->run(t);
   for (uint32_t i = t->root.begin; i < t->root.end; i++)
     b->out->order[i] = t->refs[i].as.triangle;
+  t->nodes = (bvh_node *)(void *)(t->refs + t->root.begin);
+  if (t->node_count > t->root.end - t->root.begin)
+    t->nodes = ARENA_NEW(&room->done, bvh_node, t->node_count);
+  memcpy(t->nodes, room->nodes, t->node_count * sizeof *t->nodes);
 }
 
 static void make_rooms(builder *b, uint32_t n, arena *scratch) {
@@ -283,7 +273,6 @@ static void build_tasks(builder *b, arena *mem, arena *refs, arena *scratch) {
   out->order = ARENA_NEW(mem, uint32_t, out->kept);
   make_rooms(b, out->kept, scratch);
   pool_run(b->threads, b->task_count, run_task, b);
-  arena_free(refs);
   b->offsets = ARENA_NEW(scratch, uint32_t, b->task_count);
   uint32_t count = b->top_count;
   for (uint32_t k = 0; k < b->task_count; k++) {
@@ -299,20 +288,18 @@ static void build_tasks(builder *b, arena *mem, arena *refs, arena *scratch) {
   pool_run(b->threads, b->task_count, copy_task, b);
   for (int i = 0; i < pool_threads(b->threads); i++)
     arena_free(&b->rooms[i].done);
+  arena_free(refs);
 }
 
-static void plain_bin(sah_bins *bins, const sah_grid *g, const sah_ref *refs, size_t n) {
-  sah_bins_clear(bins, g);
-  sah_bins_add(bins, g, refs, n);
-}
 void bvh_build_source(bvh *out, const bvh_source *from, arena *mem,
                       pool *threads) {
   arena scratch = {0};
   builder b = {.out = out,
                .method = from->method,
+               .hands = from->hands,
                .threads = threads,
                .refs = from->refs};
-  b.hands = from->hands ? *from->hands : (bvh_hands){plain_bin, NULL, bvh_task_run};
+  if (b.hands == NULL) b.hands = &bvh_plain_hands;
   if (out->kept > 0) {
     build_top(&b, &from->root, from->mem, &scratch);
     build_tasks(&b, mem, from->mem, &scratch);
@@ -330,7 +317,6 @@ void bvh_build(bvh *out, const vec3 *positions, const uint32_t *index,
       .positions = positions, .index = index, .triangle_count = triangle_count};
   arena refs = {0};
   bvh_source from = {.method = method, .mem = &refs};
-  from.hands = HANDS;
   from.root = bvh_read(&from.refs, out, 0, &refs, threads);
   bvh_build_source(out, &from, mem, threads);
   out->seconds = clock_seconds() - start;

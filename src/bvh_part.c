@@ -15,7 +15,7 @@ static int halvings(uint32_t n) {
   return k;
 }
 
-// Slices for a node of n triangles: few triangles need few.
+// Few triangles need few.
 int bvh_bins_for(uint32_t n, bvh_method method) {
   if (method == BVH_MEDIAN) return 2;
   int most = method == BVH_SAH_16 ? 16 : method == BVH_SAH_8 ? 8 : SAH_MAX_BINS;
@@ -73,6 +73,27 @@ sah_box bvh_part_centres(const sah_ref *refs, const bvh_part *p) {
   return all;
 }
 
+static void bin_refs(sah_bins *bins, const sah_grid *g, const sah_ref *refs,
+                     size_t n) {
+  sah_bins_clear(bins, g);
+  sah_bins_add(bins, g, refs, n);
+}
+
+static void move_refs(bvh_move *m) {
+  sah_ref *left = m->to[0], *right = m->to[1];
+  for (uint32_t i = m->begin; i < m->end; i++) {
+    const sah_ref *r = &m->refs[i];
+    bool goes_left = bvh_cut_left(m->cut, m->part, r, i);
+    *(goes_left ? left : right) = *r;
+    left += goes_left;
+    right += !goes_left;
+  }
+  bvh_part side[2] = {{.end = (uint32_t)(left - m->to[0])},
+                      {.end = (uint32_t)(right - m->to[1])}};
+  for (int k = 0; k < 2; k++)
+    m->centres[k] = bvh_part_centres(m->to[k], &side[k]);
+}
+
 // Halves by position: only the bounds must be found.
 static void part_in_halves(const bvh_part *p, const sah_ref *refs,
                            bvh_part child[2]) {
@@ -108,14 +129,11 @@ static void part_by_cut(const bvh_task *t, const bvh_part *p,
     child[side].centres = bvh_part_centres(t->refs, &child[side]);
 }
 
-// Make node p an inner node and its two parts; false when it became a leaf.
 bool bvh_task_split(bvh_task *t, const bvh_part *p, bvh_part child[2]) {
   bvh_cut cut = {.grid = bvh_part_grid(p, t->method)};
   sah_bins bins;
-  if (cut.grid.bins > 0) {
-    sah_bins_clear(&bins, &cut.grid);
-    sah_bins_add(&bins, &cut.grid, t->refs + p->begin, p->end - p->begin);
-  }
+  if (cut.grid.bins > 0)
+    bin_refs(&bins, &cut.grid, t->refs + p->begin, p->end - p->begin);
   if (!bvh_cut_choose(&cut, p, &bins, t->method)) {
     t->nodes[p->node] = bvh_node_of(&p->box, p->begin, p->end - p->begin);
     if (p->depth > t->depth) t->depth = p->depth;
@@ -151,6 +169,8 @@ void bvh_task_run(bvh_task *t) {
     }
   }
 }
+
+const bvh_hands bvh_plain_hands = {bin_refs, move_refs, bvh_task_run};
 
 // Each node costs what it does times the chance that a line through the root's
 // box meets its box.

@@ -21,6 +21,9 @@ typedef struct bvh_cut {
   sah_split split;
 } bvh_cut;
 
+// Slices for a part of n refs.
+int bvh_bins_for(uint32_t n, bvh_method method);
+
 // The grid to bin the part's refs on, before bvh_cut_choose; with 0 bins where
 // the part can only be halved: its centres agree, or the depth runs out.
 sah_grid bvh_part_grid(const bvh_part *p, bvh_method method);
@@ -44,6 +47,17 @@ static inline bool bvh_cut_left(const bvh_cut *cut, const bvh_part *p,
 // The bounds of the centres of a part's refs.
 sah_box bvh_part_centres(const sah_ref *refs, const bvh_part *p);
 
+// Refs begin..end-1 of a part that is cut, and where the left and the right
+// ones go, in their order; found on the way are the bounds of their centres.
+typedef struct bvh_move {
+  const bvh_part *part;
+  const bvh_cut *cut;
+  const sah_ref *refs;
+  uint32_t begin, end;
+  sah_ref *to[2];
+  sah_box centres[2];
+} bvh_move;
+
 // A subtree for one thread: refs and root are given, nodes has room for two a
 // ref, spare for each once.  On return the root is nodes[0], inner nodes count
 // from there, leaves count in the array of refs, which is reordered.
@@ -58,30 +72,20 @@ typedef struct bvh_task {
 
 void bvh_task_run(bvh_task *t);
 
-// Make node p of a task an inner node and its two parts; false when it became a
-// leaf.
+// Make part p of a task an inner node and its two parts; false when it became
+// a leaf.
 bool bvh_task_split(bvh_task *t, const bvh_part *p, bvh_part child[2]);
 
-// Slices for a node of n triangles: few triangles need few.
-int bvh_bins_for(uint32_t n, bvh_method method);
-
-// Refs of a node that is cut, count of them, and where the left and the right
-// ones go, in their order; on return the bounds of the centres of either.
-typedef struct bvh_move {
-  const bvh_cut *cut;
-  const sah_ref *refs;
-  size_t count;
-  sah_ref *to[2];
-  sah_box centres[2];
-} bvh_move;
-
-// Who bins refs, moves them, and does tasks: the functions of this module and
-// of sah, or others that do the same to the bit.
+// Who does the work on refs: bins n of them, moves them, runs a task.
 typedef struct bvh_hands {
   void (*bin)(sah_bins *bins, const sah_grid *g, const sah_ref *refs, size_t n);
   void (*move)(bvh_move *m);
-  void (*task)(bvh_task *t);
+  void (*run)(bvh_task *t);
 } bvh_hands;
+
+// The functions of this module.  Others may do the same by other instructions,
+// to the bit.
+extern const bvh_hands bvh_plain_hands;
 
 // The expected cost of a tree, as in bvh.
 double bvh_cost(const bvh *b);

@@ -11,14 +11,15 @@
 bvh_part bvh_read(sah_ref **refs, bvh *b, uint32_t percent, arena *mem,
                   pool *threads);
 
-// Refs that have been read, the root over them, how to cut it, and the arena
-// of the refs, which is freed as soon as they are not needed.
+// Refs that have been read, the root over them, how to cut it, the arena of the
+// refs, which is freed as soon as they are not needed, and whose hands build;
+// NULL: bvh_plain_hands.
 typedef struct bvh_source {
   sah_ref *refs;
   bvh_part root;
   bvh_method method;
   arena *mem;
-  const bvh_hands *hands;  // NULL: this chapter's own
+  const bvh_hands *hands;
 } bvh_source;
 
 // bvh_build of what bvh_read has counted in *out.

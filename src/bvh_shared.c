@@ -2,6 +2,7 @@
 
 #include "bvh_shared.h"
 
+#include "build.h"
 #include "bvh_bundle.h"
 #include "bvh_read.h"
 #include "bvh_split.h"
@@ -180,7 +181,7 @@ static void build_cut(bvh *out, splitter *s, arena *mem, pool *threads) {
   const bvh_bundle *last = &s->bundles[s->bundle_count - 1];
   s->parts = ARENA_NEW(&refs, sah_ref, last->at + last->parts);
   pool_run(threads, s->bundle_count / CHUNK + 1, cut_some, s);
-  bvh_source from = {s->parts, join_parts(s), BVH_ONES, &refs, NULL};
+  bvh_source from = {s->parts, join_parts(s), BVH_ONES, &refs, build_hands()};
   bvh tree = {.kept = from.root.end};
   bvh_build_source(&tree, &from, &scratch, threads);
   out->node_count = tree.node_count;
@@ -216,7 +217,8 @@ void bvh_shared_build(bvh *out, const bvh *mesh, double rays, arena *mem,
   *out = (bvh){.positions = mesh->positions,
                .index = mesh->index,
                .triangle_count = mesh->triangle_count};
-  bvh_source from = {.method = BVH_COARSE, .mem = &refs};
+  bvh_source from = {
+      .method = BVH_COARSE, .mem = &refs, .hands = build_hands()};
   from.root = bvh_read(&from.refs, out, 0, &refs, threads);
   bvh plain = *out;
   splitter s = splitter_of(&plain, &from);

@@ -8,6 +8,7 @@
 
 #include "bvh_split.h"
 
+#include "build.h"
 #include "bvh_read.h"
 #include "bvh_split_part.h"
 #include "clock.h"
@@ -326,7 +327,8 @@ void bvh_split_build(bvh *out, const bvh *mesh, double rays, arena *mem,
     out->parts = out->refs - out->kept;
     out->cost = bvh_cost(out);
   } else {
-    bvh_source from = {b.shop.refs[0], root.part, BVH_COARSE, &refs, NULL};
+    bvh_source from = {b.shop.refs[0], root.part, BVH_COARSE, &refs,
+                       build_hands()};
     bvh_build_source(out, &from, mem, threads);
   }
   arena_free(&refs);

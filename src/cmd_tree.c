@@ -2,6 +2,7 @@
 
 #include "cmd_tree.h"
 
+#include "build.h"
 #include "bvh_shared.h"
 #include "clock.h"
 #include "wide_patch.h"
@@ -35,8 +36,7 @@ static void build_binary(cmd_tree *t, long long word, const mesh *m, arena *mem,
     return;
   }
   bool coarse = word == TREE_WIDE || word == TREE_FAST;
-  bvh_build(&t->binary, of.positions, of.index, of.triangle_count,
-            coarse ? BVH_COARSE : BVH_SAH, mem, threads);
+  build_tree(&t->binary, &of, coarse ? BVH_COARSE : BVH_SAH, mem, threads);
 }
 
 // Ask the cache for a wide tree; false when it must be built.  Then *c, if it

@@ -27,8 +27,7 @@ SIMD uint32_t lanes_equal(const uint32_t v[8], uint32_t x) {
   return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(e));
 }
 
-// Four rows of four become four columns, in either half: of a transposition of
-// eight the first two of three rounds, on four of the rows.
+// Two of the three rounds of a transposition, on four of the rows.
 SIMD void f8_mix(f8 to[4], f8 a, f8 b, f8 c, f8 d) {
   __m256 ab = _mm256_unpacklo_ps(a.v, b.v), ba = _mm256_unpackhi_ps(a.v, b.v);
   __m256 cd = _mm256_unpacklo_ps(c.v, d.v), dc = _mm256_unpackhi_ps(c.v, d.v);
@@ -54,17 +53,6 @@ SIMD void f8_transpose(f8 v[8]) {
 }
 
 #else
-
-SIMD f4 f4_lane(f4 a, f4 b, f4 c, f4 d, int k) {
-  return (f4){a[k], b[k], c[k], d[k]};
-}
-
-SIMD void f8_mix(f8 to[4], f8 a, f8 b, f8 c, f8 d) {
-  to[0] = (f8){f4_lane(a.a, b.a, c.a, d.a, 0), f4_lane(a.b, b.b, c.b, d.b, 0)};
-  to[1] = (f8){f4_lane(a.a, b.a, c.a, d.a, 1), f4_lane(a.b, b.b, c.b, d.b, 1)};
-  to[2] = (f8){f4_lane(a.a, b.a, c.a, d.a, 2), f4_lane(a.b, b.b, c.b, d.b, 2)};
-  to[3] = (f8){f4_lane(a.a, b.a, c.a, d.a, 3), f4_lane(a.b, b.b, c.b, d.b, 3)};
-}
 
 SIMD uint32_t lanes_equal(const uint32_t v[8], uint32_t x) {
   uint32_t m = 0;

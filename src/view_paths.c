@@ -3,6 +3,7 @@
 
 #include "view_paths.h"
 
+#include "build.h"
 #include "film.h"
 #include "path.h"
 #include "ready.h"
@@ -101,9 +102,10 @@ static const view_tree *tree_for(view_paths *p, const view_look *look) {
   const uint32_t *index =
       look->only_rough ? only_rough_index(p->given, p->mem) : m->position_index;
   arena scratch = {0};
-  bvh binary;
-  bvh_build(&binary, m->positions, index, (uint32_t)m->triangle_count, BVH_SAH,
-            &scratch, p->threads);
+  bvh binary, of = {.positions = m->positions,
+                    .index = index,
+                    .triangle_count = (uint32_t)m->triangle_count};
+  build_tree(&binary, &of, BVH_SAH, &scratch, p->threads);
   wide_tree_build(&t->tree, &binary, p->mem, p->threads);
   arena_free(&scratch);
   t->lit = *p->given;

@@ -14,8 +14,8 @@ enum { PARTS = 256 };
 #define IS_LEAF (UINT32_C(1) << 31)
 
 // Costs in visits to nodes per random ray: of[i], i < 7, is what all below a
-// node costs as at most i + 1 trees side by side; of[7], as up to 8 of which the
-// node itself is none.  And how many wide nodes these have.
+// node costs as at most i + 1 trees side by side; of[7], as up to 8 of which
+// the node itself is none.  And how many wide nodes these have.
 typedef struct node_cost {
   float of[WIDE];
   uint32_t inner[WIDE];

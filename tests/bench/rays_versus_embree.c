@@ -13,8 +13,11 @@
 // default 5); BUILDS (5) is how often trees are built, SIZE (640) and LIMIT
 // (400000) are the sizes of the sets, SIMD (default: all) a list of levels,
 // KINDS (all) one of kinds.  With HIGH both cut triangles: Embree builds in
-// high quality, facet as for --bvh high.
+// high quality, facet as for --bvh high.  THREADS (1) build; of more than one
+// the seconds are those of a clock, so the machine should have nothing else to
+// do.
 
+#include "build.h"
 #include "bvh_shared.h"
 #include "clock.h"
 #include "obj.h"
@@ -39,6 +42,11 @@ static double thread_seconds(void) {
 static long setting(const char *name, long otherwise) {
   const char *text = getenv(name);
   return text != NULL ? strtol(text, NULL, 10) : otherwise;
+}
+
+// Seconds of what builds: of this thread's work where it is alone.
+static double build_seconds(void) {
+  return setting("THREADS", 1) > 1 ? clock_seconds() : thread_seconds();
 }
 
 static RTCScene embree_scene(RTCDevice device, const mesh *m) {
@@ -107,6 +115,8 @@ static void facet_many(tracer t, const ray_set *s, hit *hits) {
 
 // Everything that is compared.
 typedef struct contest {
+  RTCDevice device;
+  pool *threads;
   RTCScene scene;
   bvh binary;
   wide_tree wide;
@@ -167,32 +177,29 @@ static void compare_kind(contest *c, ray_kind kind, const ray_set *s,
   c->log_ratio[kind] += log(ratio);
 }
 
-static void build_binary(bvh *b, const mesh *m, arena *mem) {
-  if (getenv("HIGH") == NULL) {
-    bvh_build(b, m->positions, m->position_index, (uint32_t)m->triangle_count,
-              BVH_COARSE, mem, NULL);
-    return;
-  }
+static void build_binary(bvh *b, const mesh *m, arena *mem, pool *threads) {
   bvh of = {.positions = m->positions,
             .index = m->position_index,
             .triangle_count = (uint32_t)m->triangle_count};
-  bvh_shared_build(b, &of, INFINITY, mem, NULL);
+  if (getenv("HIGH") != NULL)
+    bvh_shared_build(b, &of, INFINITY, mem, threads);
+  else
+    build_tree(b, &of, BVH_COARSE, mem, threads);
 }
 
 // Build in turn, BUILDS (5) times: the least seconds of Embree, of the binary
 // tree as --bvh wide has it, and of the wide tree.
-static void build_all(contest *c, RTCDevice device, const mesh *m, arena *mem,
-                      double best[3]) {
+static void build_all(contest *c, const mesh *m, arena *mem, double best[3]) {
   best[0] = best[1] = best[2] = INFINITY;
   for (long k = setting("BUILDS", 5); k > 0; k--) {
     arena once = {0}, *to = k == 1 ? mem : &once;
-    double t[4] = {thread_seconds()};
-    c->scene = embree_scene(device, m);
-    t[1] = thread_seconds();
-    build_binary(&c->binary, m, to);
-    t[2] = thread_seconds();
-    wide_tree_build(&c->wide, &c->binary, to, NULL);
-    t[3] = thread_seconds();
+    double t[4] = {build_seconds()};
+    c->scene = embree_scene(c->device, m);
+    t[1] = build_seconds();
+    build_binary(&c->binary, m, to, c->threads);
+    t[2] = build_seconds();
+    wide_tree_build(&c->wide, &c->binary, to, c->threads);
+    t[3] = build_seconds();
     for (int i = 0; i < 3; i++)
       best[i] = fmin(best[i], t[i + 1] - t[i]);
     if (k > 1) rtcReleaseScene(c->scene);
@@ -200,7 +207,7 @@ static void build_all(contest *c, RTCDevice device, const mesh *m, arena *mem,
   }
 }
 
-static void compare_mesh(contest *c, RTCDevice device, const char *path) {
+static void compare_mesh(contest *c, const char *path) {
   arena mem = {0};
   mesh m;
   error err;
@@ -209,7 +216,7 @@ static void compare_mesh(contest *c, RTCDevice device, const char *path) {
     exit(3);
   }
   double built[3];
-  build_all(c, device, &m, &mem, built);
+  build_all(c, &m, &mem, built);
   printf("== %s: %zu triangles; build %.4f s, facet %.4f + %.4f, x %.2f; "
          "%.1f bytes a triangle\n",
          path, m.triangle_count, built[0], built[1], built[2],
@@ -234,8 +241,12 @@ static void compare_mesh(contest *c, RTCDevice device, const char *path) {
 }
 
 int main(int argc, char **argv) {
-  contest c = {0};
-  RTCDevice device = rtcNewDevice("threads=1,set_affinity=0");
+  arena mem = {0};
+  char config[64];
+  long threads = setting("THREADS", 1);
+  snprintf(config, sizeof config, "threads=%ld,set_affinity=0", threads);
+  contest c = {.device = rtcNewDevice(config),
+               .threads = pool_new(&mem, (int)threads)};
   printf("%-8s  embree  binary", "Mray/s");
   for (int w = 0; w < 2 * WIDE_LEVELS; w++) {
     const wide_level *l = wide_level_at(w % WIDE_LEVELS);
@@ -243,12 +254,14 @@ int main(int argc, char **argv) {
   }
   printf("\n");
   for (int i = 1; i < argc; i++)
-    compare_mesh(&c, device, argv[i]);
+    compare_mesh(&c, argv[i]);
   printf("geometric mean over %d meshes:", c.meshes);
   for (int k = 0; k < RAYS_KINDS; k++)
     printf("  %s %.2f", rays_kind_name((ray_kind)k),
            exp(c.log_ratio[k] / c.meshes));
   printf("\n");
-  rtcReleaseDevice(device);
+  rtcReleaseDevice(c.device);
+  pool_free(c.threads);
+  arena_free(&mem);
   return 0;
 }
