@@ -10,8 +10,8 @@
 
 #if defined(__AVX2__)
 
-// So many refs are looked at together.
-enum { BLOCK = 64 };
+// The places of so many refs are found together.
+enum { PLACES = 64 };
 
 // The slices of all axes.
 typedef struct lane_bins {
@@ -70,13 +70,13 @@ SIMD void slice_grow(f8 *slices, int32_t place, f8 box) {
 // is written to slices would else stand between the one and the next.
 SIMD void bins_fill(lane_bins *s, const sah_grid *grid, const sah_ref *refs,
                     size_t n) {
-  int32_t at[BLOCK][4];
+  int32_t at[PLACES][4];
   const lane_grid g = grid_lanes(grid);
   for (int i = 0; i < grid->bins; i++)
     s->slice[0][i] = s->slice[1][i] = s->slice[2][i] = slice_empty();
-  for (size_t i = 0; i < n; i += BLOCK) {
+  for (size_t i = 0; i < n; i += PLACES) {
     const sah_ref *r = refs + i;
-    size_t m = n - i < BLOCK ? n - i : BLOCK;
+    size_t m = n - i < PLACES ? n - i : PLACES;
     for (size_t k = 0; k < m; k += 2)
       places_find(at[k], r + k, r + k + (k + 1 < m), &g);
     for (size_t k = 0; k < m; k++) {
