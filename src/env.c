@@ -56,9 +56,10 @@ typedef struct corners {
 
 // Texel centres at (i + 0.5) / n; u of any value wraps.
 static corners corners_at(const image *m, float u, float v) {
-  float x = (u - floorf(u)) * (float)m->width - 0.5f;
+  float x = (u - float_floor(u)) * (float)m->width - 0.5f;
   float y = v * (float)m->height - 0.5f;
-  int x0 = (int)floorf(x), y0 = (int)floorf(y);
+  float left = float_floor(x), top = float_floor(y);
+  int x0 = (int)left, y0 = (int)top;
   int above = y0 < 0 ? 0 : y0 < m->height ? y0 : m->height - 1;
   int below = y0 + 1 < m->height ? y0 + 1 : m->height - 1;
   corners c = {.above = m->pixels + (size_t)above * (size_t)m->width,
@@ -66,15 +67,15 @@ static corners corners_at(const image *m, float u, float v) {
                .left = x0 < 0          ? m->width - 1
                        : x0 < m->width ? x0
                                        : 0,
-               .x = x - floorf(x),
-               .y = y - floorf(y)};
+               .x = x - left,
+               .y = y - top};
   c.right = c.left + 1 < m->width ? c.left + 1 : 0;
   return c;
 }
 
 // d turned about +Y so that its u grows by that many turns.
 static vec3 turned_about_y(vec3 d, float turns) {
-  vec2 cs = num_circle(turns - floorf(turns));
+  vec2 cs = num_circle(turns - float_floor(turns));
   return (vec3){d.x * cs.x - d.z * cs.y, d.y, d.z * cs.x + d.x * cs.y};
 }
 

@@ -245,7 +245,7 @@ env_sample light_env_sample_cell(const light_env *l, const light_env_spot *s) {
   float high = cell_height(l, s->row), left = (float)s->column - 0.5f;
   float u = (left + at.x) / (float)l->map.width - l->env->rotate;
   float v = (top + high * at.y) / (float)l->map.height;
-  env_sample out = {.wi = env_direction((vec2){u - floorf(u), v})};
+  env_sample out = {.wi = env_direction((vec2){u - float_floor(u), v})};
   out.pdf = per_steradian(cell_pdf(l, &c, at, s->share / high), v);
   if (!(out.pdf > 0 && isfinite(out.pdf))) return none;
   out.radiance = radiance_at(l, &around, at, out.wi);
@@ -282,7 +282,7 @@ env_sample light_env_sample(const light_env *l, vec2 u) {
 light_env_place light_env_place_of(const light_env *l, vec2 uv) {
   const image *m = &l->map;
   float u = uv.x + l->env->rotate;
-  float x = (u - floorf(u)) * (float)m->width + 0.5f;
+  float x = (u - float_floor(u)) * (float)m->width + 0.5f;
   float y = uv.y * (float)m->height + 0.5f;
   light_env_place p = {(int)x, clamped((int)y, m->height + 1), {0, 0}};
   p.at = (vec2){x - (float)p.column, y - (float)p.row};

@@ -11,7 +11,7 @@
 vec2 num_circle(float u) {
   // The rest in [-1/8, 1/8] turns is exact: u and quarter / 4 are within a
   // factor 2.
-  float quarter = floorf(u * 4 + 0.5f);
+  float quarter = float_floor(u * 4 + 0.5f);
   vec2 r = num_octant_circle((u - quarter * 0.25f) * (2 * PI));
   switch ((int)quarter & 3) {
   case 0: return r;

@@ -4,12 +4,19 @@
 
 #include "scalar.h"
 
-// Numbers that share an entry of the guide, on average.
-enum { PICK_STRIDE = 4 };
+#include <string.h>
 
+// Numbers that share an entry of the guide, on average; and numbers that are
+// looked at together.
+enum { PICK_STRIDE = 4, PICK_WIDE = 8 };
+
+// Behind the last number come some that are never picked.
 pick pick_new(arena *mem, uint32_t n) {
-  return (pick){ARENA_NEW(mem, uint32_t, (size_t)n + 1),
-                ARENA_NEW(mem, uint32_t, (size_t)n / PICK_STRIDE + 2), n};
+  pick p = {ARENA_NEW(mem, uint32_t, (size_t)n + 1 + PICK_WIDE),
+            ARENA_NEW(mem, uint32_t, (size_t)n / PICK_STRIDE + 2), n};
+  for (uint32_t i = 1; i <= PICK_WIDE; i++)
+    p.upto[n + i] = PICK_UNITS;
+  return p;
 }
 
 static uint32_t entries(const pick *p) {
@@ -58,16 +65,35 @@ void pick_search(const pick *p, float u) {
   __builtin_prefetch(&p->upto[p->guide[entry_of(p, unit_of(u))] + 1]);
 }
 
-uint32_t pick_unit(const pick *p, double at, float *rest, float *share) {
-  uint32_t unit = (uint32_t)at, e = entry_of(p, unit);
-  uint32_t lo = p->guide[e], hi = p->guide[e + 1];
-  while (lo < hi) {
+// Four numbers in a register.
+typedef int32_t four __attribute__((vector_size(16)));
+
+// How many of the next PICK_WIDE numbers end at a unit or before: no branch
+// depends on it.
+static uint32_t count_ended(const uint32_t *upto, uint32_t unit) {
+  four a, b, at = {0};
+  at += (int32_t)unit;
+  memcpy(&a, upto, sizeof a);
+  memcpy(&b, upto + 4, sizeof b);
+  four ended = (a <= at) + (b <= at);
+  return (uint32_t)-(ended[0] + ended[1] + ended[2] + ended[3]);
+}
+
+static uint32_t number_of(const pick *p, uint32_t unit) {
+  uint32_t e = entry_of(p, unit), lo = p->guide[e], hi = p->guide[e + 1];
+  while (hi - lo > PICK_WIDE) {
     uint32_t middle = (lo + hi) / 2;
     if (p->upto[middle + 1] > unit)
       hi = middle;
     else
       lo = middle + 1;
   }
+  uint32_t i = lo + count_ended(p->upto + lo + 1, unit);
+  return i < hi ? i : hi;
+}
+
+uint32_t pick_unit(const pick *p, double at, float *rest, float *share) {
+  uint32_t lo = number_of(p, (uint32_t)at);
   double units = p->upto[lo + 1] - p->upto[lo];
   *rest = float_min((float)((at - p->upto[lo]) / units), FLOAT_BELOW_1);
   *share = (float)(units / PICK_UNITS);
