@@ -218,45 +218,39 @@ static bool choose_env(const light_set *l, const light_place *at, double u,
   return true;
 }
 
-// Choose a kind of light, and ask it; *share is the probability of the kind.
-// Only the environment is left to be asked where true.
-static bool ask_all_but_env(const light_set *l, const light_question *q,
-                            light_sample *out, float *share) {
+// Choose a kind of light, and ask it.
+bool light_ask_all_but_env(const light_set *l, const light_question *q,
+                           light_sample *out) {
   light_place at = light_place_of(q->p, q->n);
   shares s = shares_at(l, &at);
   double choice = light_finer(q->u), near = (double)s.near;
   *out = (light_sample){.part = LIGHT_NO_PART};
-  *share = s.env;
   double rest = choice - near - (double)s.far;
-  if (rest >= 0)
-    return s.env > 0 && choose_env(l, &at, rest / (double)s.env, out);
-  bool found;
-  if (choice < near) {
-    *share = s.near;
-    found = sample_near(l, &at, choice / near, q->u, out);
-  } else {
-    *share = s.far;
-    found = sample_far(l, &at, s.far_sum, (choice - near) / (double)s.far, out);
+  if (rest >= 0) {
+    bool left = s.env > 0 && choose_env(l, &at, rest / (double)s.env, out);
+    out->chosen *= s.env;
+    return left;
   }
-  out->pdf = found ? out->pdf * *share : 0;
-  out->chosen *= *share;
+  bool is_near = choice < near;
+  float share = is_near ? s.near : s.far;
+  bool found = is_near ? sample_near(l, &at, choice / near, q->u, out)
+                       : sample_far(l, &at, s.far_sum,
+                                    (choice - near) / (double)s.far, out);
+  out->pdf = found ? out->pdf * share : 0;
+  out->chosen *= share;
   return false;
 }
 
-// So many wait together.
-enum { TOGETHER = 64 };
-
-// As light_samples_at, of TOGETHER at most.
+// As light_samples_at, of LIGHT_TOGETHER at most.
 static void sample_some(const light_set *l, const light_question *q, size_t n,
                         light_sample *out) {
-  light_sample *to[TOGETHER];
-  uint32_t part[TOGETHER];
-  float share[TOGETHER];
-  vec2 u[TOGETHER];
-  env_sample found[TOGETHER];
+  light_sample *to[LIGHT_TOGETHER];
+  uint32_t part[LIGHT_TOGETHER];
+  vec2 u[LIGHT_TOGETHER];
+  env_sample found[LIGHT_TOGETHER];
   size_t count = 0;
   for (size_t i = 0; i < n; i++) {
-    if (!ask_all_but_env(l, &q[i], &out[i], &share[count])) continue;
+    if (!light_ask_all_but_env(l, &q[i], &out[i])) continue;
     u[count] = (vec2){q[i].u.y, q[i].u.z};
     part[count] = out[i].part;
     to[count++] = &out[i];
@@ -268,15 +262,16 @@ static void sample_some(const light_set *l, const light_question *q, size_t n,
   for (size_t i = 0; i < count; i++) {
     to[i]->wi = found[i].wi;
     to[i]->radiance = found[i].radiance;
-    to[i]->chosen *= share[i];
     to[i]->pdf = found[i].pdf * to[i]->chosen;
   }
 }
 
 void light_samples_at(const light_set *l, const light_question *q, size_t n,
                       light_sample *out) {
-  for (size_t i = 0; i < n; i += TOGETHER)
-    sample_some(l, q + i, n - i < TOGETHER ? n - i : TOGETHER, out + i);
+  for (size_t i = 0; i < n; i += LIGHT_TOGETHER) {
+    size_t some = n - i < LIGHT_TOGETHER ? n - i : LIGHT_TOGETHER;
+    sample_some(l, q + i, some, out + i);
+  }
 }
 
 bool light_sample_at(const light_set *l, vec3 p, vec3 n, vec3 u,
@@ -318,10 +313,14 @@ float light_pdf_triangle(const light_set *l, vec3 p, vec3 n, uint32_t triangle,
   return pdf * shares_at(l, &at).near * share;
 }
 
+float light_env_share(const light_set *l, vec3 p, vec3 n) {
+  light_place at = light_place_of(p, n);
+  return shares_at(l, &at).env;
+}
+
 float light_pdf_env(const light_set *l, vec3 p, vec3 n, vec2 uv) {
   if (!(l->env.irradiance > 0)) return 0;
-  light_place at = light_place_of(p, n);
-  float share = shares_at(l, &at).env;
+  float share = light_env_share(l, p, n);
   if (!knows_sky(l)) return share * light_env_density(&l->env, uv);
   uint32_t part, key = light_memory_key(l->memory, p, n);
   float pdf = light_sky_density(&l->sky, uv, &part);

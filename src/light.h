@@ -95,11 +95,19 @@ typedef struct light_question {
 void light_samples_at(const light_set *l, const light_question *q, size_t n,
                       light_sample *out);
 
+// The same but for directions of the environment: true where such a one is left
+// to be found, of out->part with probability out->chosen.
+bool light_ask_all_but_env(const light_set *l, const light_question *q,
+                           light_sample *out);
+
 // The density with which light_sample_at, for the same p and n, gives the
 // direction to the point q of a triangle, by that triangle; 0 when it does not
 // shine this way, or leaves it to scattered rays to find that out.
 float light_pdf_triangle(const light_set *l, vec3 p, vec3 n, uint32_t triangle,
                          vec3 q);
+
+// The probability that light_sample_at asks the environment.
+float light_env_share(const light_set *l, vec3 p, vec3 n);
 
 // The same for the environment in the unit direction whose env_uv is uv.
 float light_pdf_env(const light_set *l, vec3 p, vec3 n, vec2 uv);

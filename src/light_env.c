@@ -214,13 +214,27 @@ static light_env_spot find_row(const light_env *l, vec2 u) {
   return s;
 }
 
-void light_env_find_column(const light_env *l, light_env_spot *s) {
+static void find_column(const light_env *l, light_env_spot *s) {
   float share;
   s->column = (int)pick_unit(&l->columns[s->row], s->unit, &s->u.x, &share);
   s->share *= share;
   corners at = corners_of(l, s->column, s->row);
   __builtin_prefetch(at.above + at.left);
   __builtin_prefetch(at.below + at.left);
+}
+
+void light_env_find_columns(const light_env *l, light_env_spot *s, size_t n) {
+  for (size_t k = 0; k < n; k++)
+    pick_search(&l->columns[s[k].row], s[k].u.x);
+  for (size_t k = 0; k < n; k++)
+    find_column(l, &s[k]);
+}
+
+void light_env_spots(const light_env *l, const vec2 *u, size_t n,
+                     light_env_spot *out) {
+  for (size_t k = 0; k < n; k++)
+    out[k] = find_row(l, u[k]);
+  light_env_find_columns(l, out, n);
 }
 
 // Radiance at a place of a cell, by what it is bilinear in.
@@ -252,22 +266,14 @@ env_sample light_env_sample_cell(const light_env *l, const light_env_spot *s) {
   return out;
 }
 
-// So many are waited for together.
-enum { TOGETHER = 64 };
-
 void light_env_samples(const light_env *l, const vec2 *u, size_t n,
                        env_sample *out) {
-  light_env_spot spots[TOGETHER];
+  light_env_spot spots[LIGHT_TOGETHER];
   if (!(l->irradiance > 0)) memset(out, 0, n * sizeof *out);
   if (!(l->irradiance > 0)) return;
-  for (size_t i = 0; i < n; i += TOGETHER) {
-    size_t some = n - i < TOGETHER ? n - i : TOGETHER;
-    for (size_t k = 0; k < some; k++)
-      spots[k] = find_row(l, u[i + k]);
-    for (size_t k = 0; k < some; k++)
-      pick_search(&l->columns[spots[k].row], u[i + k].x);
-    for (size_t k = 0; k < some; k++)
-      light_env_find_column(l, &spots[k]);
+  for (size_t i = 0; i < n; i += LIGHT_TOGETHER) {
+    size_t some = n - i < LIGHT_TOGETHER ? n - i : LIGHT_TOGETHER;
+    light_env_spots(l, u + i, some, spots);
     for (size_t k = 0; k < some; k++)
       out[i + k] = light_env_sample_cell(l, &spots[k]);
   }

@@ -51,8 +51,8 @@ float light_env_pdf(const light_env *l, vec3 wi);
 void light_env_expect(const light_env *l, vec2 uv);
 float light_env_density(const light_env *l, vec2 uv);
 
-// A cell of the table on its way to be found: what is left of two numbers that
-// find it, and its probability, so far that of its row.
+// A cell of the table: what is left of two numbers that found it, and its
+// probability.
 typedef struct light_env_spot {
   int column, row;
   double unit;  // that picks the column: see pick.h
@@ -60,9 +60,15 @@ typedef struct light_env_spot {
   float share;
 } light_env_spot;
 
-// What light_env_samples does next: find the column by s->unit, and let texels
-// come nearer; and last, find the direction.
-void light_env_find_column(const light_env *l, light_env_spot *s);
+// The most spots that are looked for together.
+enum { LIGHT_TOGETHER = 64 };
+
+// light_env_samples in two steps: the cells, whose texels are asked to come
+// nearer; and what is there.  Columns are found for n spots, LIGHT_TOGETHER at
+// most, of which the rows are known: s->unit finds them.
+void light_env_spots(const light_env *l, const vec2 *u, size_t n,
+                     light_env_spot *out);
+void light_env_find_columns(const light_env *l, light_env_spot *s, size_t n);
 env_sample light_env_sample_cell(const light_env *l, const light_env_spot *s);
 
 // The cell in which (u, v) lies, and where.

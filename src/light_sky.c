@@ -220,20 +220,19 @@ static light_env_spot find_row(const light_sky *s, uint32_t part, vec2 u) {
   return spot;
 }
 
-// So many are waited for together.
-enum { TOGETHER = 64 };
+void light_sky_spots(const light_sky *s, const uint32_t *part, const vec2 *u,
+                     size_t n, light_env_spot *out) {
+  for (size_t k = 0; k < n; k++)
+    out[k] = find_row(s, part[k], u[k]);
+  light_env_find_columns(s->env, out, n);
+}
 
 void light_sky_samples(const light_sky *s, const uint32_t *part, const vec2 *u,
                        size_t n, env_sample *out) {
-  light_env_spot spots[TOGETHER];
-  for (size_t i = 0; i < n; i += TOGETHER) {
-    size_t some = n - i < TOGETHER ? n - i : TOGETHER;
-    for (size_t k = 0; k < some; k++)
-      spots[k] = find_row(s, part[i + k], u[i + k]);
-    for (size_t k = 0; k < some; k++)
-      pick_search(&s->env->columns[spots[k].row], spots[k].u.x);
-    for (size_t k = 0; k < some; k++)
-      light_env_find_column(s->env, &spots[k]);
+  light_env_spot spots[LIGHT_TOGETHER];
+  for (size_t i = 0; i < n; i += LIGHT_TOGETHER) {
+    size_t some = n - i < LIGHT_TOGETHER ? n - i : LIGHT_TOGETHER;
+    light_sky_spots(s, part + i, u + i, some, spots);
     for (size_t k = 0; k < some; k++)
       out[i + k] = light_env_sample_cell(s->env, &spots[k]);
   }

@@ -47,6 +47,10 @@ env_sample light_sky_sample(const light_sky *s, uint32_t part, vec2 u);
 void light_sky_samples(const light_sky *s, const uint32_t *part, const vec2 *u,
                        size_t n, env_sample *out);
 
+// The cells of these, LIGHT_TOGETHER at most.
+void light_sky_spots(const light_sky *s, const uint32_t *part, const vec2 *u,
+                     size_t n, light_env_spot *out);
+
 // What a part has in the table, over the density of light_sky_sample: the
 // same all over it.
 float light_sky_worth(const light_sky *s, uint32_t part);
