@@ -53,7 +53,7 @@ CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_world vertex roulette path_naive 
              render_keep render
 CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
               light_bound light_tree light_tree_build light_part light_sky light_memory \
-              light_emission light lanes path_plain path_ready aim path_aim path_log path_group path_share path_tracer path_wave path path_learn share_learn \
+              light_emission light lanes path_plain path_ready path_sky aim path_aim path_log path_group path_share path_tracer path_wave path path_learn share_learn \
               aim_photon aim_build aim_learn
 CHAPTER_11 := $(CHAPTER_10) lean raster_lean
 CHAPTER_12 := $(CHAPTER_11) simd_base simd_avx2 simd simd_lanes simd_runs \
@@ -63,7 +63,7 @@ CHAPTER_12 := $(CHAPTER_11) simd_base simd_avx2 simd simd_lanes simd_runs \
              wide_descent wide_flight wide_pending wide_steps wide_start wide_stream wide_crowd wide_crowd_ready wide_part wide_crowd_settle wide_crowd_leaf wide_together wide_kernel wide_base wide_avx2 wide_avx512 wide wide_patch \
              vertex_lanes vertex_lanes_facet vertex_lanes_smooth vertex_lanes_find \
              ready_levels ready_work ready_numbers ready_starts ready_num ready_keys ready_leaf ready_pick ready_triangle ready_leave ready_clear \
-             ready_lane ready_kernel ready_base ready_avx2 ready_avx512 ready
+             ready_sky ready_sky_ask ready_sky_look ready_lane ready_kernel ready_base ready_avx2 ready_avx512 ready
 CHAPTER_13 := $(CHAPTER_12) plan_sight plan plan_word plan_use tree_cache
 CHAPTER_14 := $(CHAPTER_13) post view_state view_script view_paths view_window
 CHAPTER_15 := $(CHAPTER_14) glyph sketch plot two_means halves jury adaptive doubling

@@ -192,6 +192,7 @@ static void choose_integrator(render_job *j) {
                              .lights = &j->lights,
                              .ready = ready_best(),
                              .starts = ready_starts_best(),
+                             .sky = ready_sky_best(),
                              .sampler = (sampler_kind)v[OPT_SAMPLER].words,
                              .seed = seed};
     j->by = path_integrator(&j->paths);

@@ -81,7 +81,7 @@ static vec3 turned_about_y(vec3 d, float turns) {
 
 env_place env_expect(const env *e, vec3 d) {
   env_place p = {.d = d};
-  if (e->kind != ENV_MAP || e->map.pixels == NULL || !vec3_finite(d)) return p;
+  if (!env_has_map(e) || !vec3_finite(d)) return p;
   p.uv = env_uv(d);
   corners c = corners_at(&e->map, p.uv.x + e->rotate, p.uv.y);
   __builtin_prefetch(c.above + c.left);

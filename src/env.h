@@ -25,6 +25,11 @@ typedef struct env {
 // that was not loaded and for a direction that is not finite.
 vec3 env_radiance(const env *e, vec3 d);
 
+// Whether there is a map that was loaded.
+static inline bool env_has_map(const env *e) {
+  return e->kind == ENV_MAP && e->map.pixels != NULL;
+}
+
 // A direction, and where a map has it; found once for all who ask.
 typedef struct env_place {
   vec3 d;

@@ -372,13 +372,7 @@ static void path_radiance(const void *self, const path_start *starts, size_t n,
   w->by = by;
   w->stats = stats;
   stats->followed += n;
-  w->sheets = by->world->thorough || scene_has_sheets(by->world->scene);
-  w->lights = by->world->thorough || light_set_any(by->lights);
-  w->lit = w->lights && by->questions <= 1 && path_ready_lights(by->lights);
-  w->together = by->questions <= 1 && by->lights->env.irradiance > 0;
-  const env *sky = &by->world->scene->env;
-  w->even = sky->kind == ENV_CONSTANT && !(by->lights->env.irradiance > 0);
-  w->sky = env_radiance(sky, (vec3){0, 1, 0});
+  wave_survey(w);
   if (w->shares != NULL) {
     for (size_t i = 0; i < n;)
       i += walk_groups(w, starts + i, n - i, out + i);

@@ -56,7 +56,8 @@ bool path_ready_light(const stop *s, light_sample *l, meeting *m) {
   *l = (light_sample){.wi = lanes_at(&r->wi, i),
                       .radiance = lanes_at(&r->radiance, i),
                       .pdf = r->pdf[i],
-                      .has_end = true,
+                      .delta = r->delta[i],
+                      .has_end = r->has_end[i],
                       .to = lanes_at(&r->to, i),
                       .part = r->part[i],
                       .chosen = r->chosen[i]};
@@ -67,8 +68,10 @@ bool path_ready_light(const stop *s, light_sample *l, meeting *m) {
 }
 
 ray path_ready_shadow(const stop *s) {
-  vec3 from = lanes_at(&s->ready->from, s->lane);
-  ray to = ray_from(from, vec3_sub(lanes_at(&s->ready->to, s->lane), from));
+  const path_ready *r = s->ready;
+  vec3 from = lanes_at(&r->from, s->lane);
+  if (!r->has_end[s->lane]) return ray_from(from, lanes_at(&r->wi, s->lane));
+  ray to = ray_from(from, vec3_sub(lanes_at(&r->to, s->lane), from));
   to.tmax = SURFACE_SHADOW_END;
   return to;
 }

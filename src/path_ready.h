@@ -35,7 +35,7 @@ typedef struct path_ready {
   lanes3 kd, from;       // albedo; where rays leave
   bool lit;              // whether lights were asked
   // The answer of light_sample_at; the cosine of wi to the normal.
-  int32_t found[LANES];
+  int32_t found[LANES], delta[LANES], has_end[LANES];
   uint32_t part[LANES];
   lanes3 wi, to, radiance;
   float pdf[LANES], chosen[LANES], cosine[LANES];

@@ -7,6 +7,7 @@
 #include "path_log.h"
 #include "path_ready.h"
 #include "path_share.h"
+#include "path_sky.h"
 #include "path_world.h"
 
 // All that it points to lives while it is used.
@@ -15,6 +16,7 @@ typedef struct path_tracer {
   const light_set *lights;  // of world's scene and lights
   ready_function *ready;    // NULL: one by one
   starts_function *starts;  // NULL: one by one
+  const path_sky *sky;      // NULL: one by one
   sampler_kind sampler;
   uint64_t seed;
   path_log *log;          // NULL: none

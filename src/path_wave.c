@@ -21,6 +21,21 @@ wave *wave_room(const path_tracer *by, arena *mem) {
   return w;
 }
 
+void wave_survey(wave *w) {
+  const path_tracer *by = w->by;
+  const scene *s = by->world->scene;
+  const env *sky = &s->env;
+  bool bright = by->lights->env.irradiance > 0, once = by->questions <= 1;
+  w->sheets = by->world->thorough || scene_has_sheets(s);
+  w->lights = by->world->thorough || light_set_any(by->lights);
+  w->lit = w->lights && once && path_ready_lights(by->lights);
+  w->asks = once && bright && by->sky != NULL;
+  w->together = once && bright && !w->asks;
+  w->even = sky->kind == ENV_CONSTANT && !bright;
+  w->looks = by->sky != NULL && (sky->kind == ENV_SKY || env_has_map(sky));
+  w->sky = env_radiance(sky, (vec3){0, 1, 0});
+}
+
 // Starts come in blocks, rows of sixteen pixels of a tile one after the other;
 // blocks of the same pixels, of sample after sample, are a stack.
 enum { ROW = 16, BLOCK = ROW * ROW, STACK = 4 * BLOCK };
@@ -106,7 +121,9 @@ static void meet_sky(const wave *w, path *p, const env_place *at) {
 size_t wave_miss(const wave *w, size_t n, uint32_t which, const ray *r) {
   missed *m = w->missed;
   m->which[n] = which;
-  if (w->even) {
+  if (w->looks) {
+    m->all.d[n] = r->d;
+  } else if (w->even) {
     m->at[n].d = r->d;
   } else {
     m->at[n] = env_expect(&w->by->world->scene->env, vec3_unit(r->d));
@@ -117,8 +134,32 @@ size_t wave_miss(const wave *w, size_t n, uint32_t which, const ray *r) {
   return 0;
 }
 
+// All of them at once.
+static void look_all(const wave *w, size_t n) {
+  missed *m = w->missed;
+  sky_looks *q = &m->all;
+  for (size_t i = 0; i < n; i++) {
+    const path *p = &w->paths[m->which[i]];
+    q->from[i] = p->from;
+    q->from_n[i] = p->from_n;
+    q->rival[i] = p->pdf > 0 && w->lights;
+  }
+  w->by->sky->look(w->by->lights, q, n);
+  for (size_t i = 0; i < n; i++) {
+    path *p = &w->paths[m->which[i]];
+    float weight = 1;
+    if (q->rival[i]) weight = wave_weight(p->pdf, q->pdf[i]);
+    if (!(p->pdf > 0)) weight = path_trail_weight(&p->trail, w->steps);
+    if (vec3_peak(q->radiance[i]) > 0) add(p, weight, q->radiance[i]);
+  }
+}
+
 void wave_meet_sky(const wave *w, size_t n) {
   const missed *m = w->missed;
+  if (w->looks) {
+    look_all(w, n);
+    return;
+  }
   for (size_t i = 0; i < n; i++)
     meet_sky(w, &w->paths[m->which[i]], &m->at[i]);
 }
@@ -137,7 +178,7 @@ void wave_meet_glow(const wave *w, path *p, const vertex *v) {
 // Whether nobody asks more of plain vertices than their lanes know.
 static bool lanes_will_do(const wave *w) {
   if (w->aims != NULL || w->shares != NULL || w->by->log != NULL) return false;
-  return !w->lights || (w->lit && !w->sheets);
+  return !w->lights || ((w->lit || w->asks) && !w->sheets);
 }
 
 void wave_vertices(const wave *w, size_t n) {
@@ -153,6 +194,7 @@ void wave_vertices(const wave *w, size_t n) {
                    .at = m->at,
                    .ready = m->ready};
   (by->ready != NULL ? by->ready : path_ready_alone)(&job, n);
+  if (w->asks) by->sky->ask(by->lights, m->ready, n);
 }
 
 void wave_ask(const wave *w, size_t n) {

@@ -31,11 +31,14 @@ typedef struct met {
   light_sample light[MET];
 } met;
 
-// Paths whose rays have met nothing, and where these look.
+// Paths whose rays have met nothing, and where these look, one by one or all.
 typedef struct missed {
   uint32_t which[MET];
   env_place at[MET];
+  sky_looks all;
 } missed;
+
+_Static_assert((int)MET <= (int)LIGHT_TOGETHER, "what is asked together");
 
 // A light sample on its way through the scene: what it brings if nothing is in
 // between, to which path; and for sheets, from where to where.
@@ -55,6 +58,8 @@ typedef struct wave {
   bool sheets, lights;  // whether there are any
   bool lit;             // whether ready knows of lights
   bool together;        // whether lights are better asked by many at once
+  bool asks;            // and by->sky does it
+  bool looks;           // whether by->sky also looks
   bool even;            // a constant sky, for which no light is asked
   vec3 sky;
   const path_plain *plain;  // by material, or NULL
@@ -80,6 +85,9 @@ static inline float wave_weight(float a, float b) {
 }
 
 wave *wave_room(const path_tracer *by, arena *mem);
+
+// What there is of lights and of sky, and how they are best asked.
+void wave_survey(wave *w);
 
 // Begin with n paths, those of pixel GROUP_NO_PIXEL left out.
 void wave_begin(wave *w, const path_start *starts, size_t n);

@@ -15,6 +15,11 @@ starts_function *ready_starts_by(int level) {
   return wide_level_at(level) != NULL ? all[level] : NULL;
 }
 
+const path_sky *ready_sky_by(int level) {
+  const path_sky *all[WIDE_LEVELS] = {&sky_base, &sky_avx2, &sky_avx512};
+  return wide_level_at(level) != NULL ? all[level] : NULL;
+}
+
 static int best_level(void) {
   int level = WIDE_LEVELS - 1;
   while (ready_by(level) == NULL)
@@ -28,4 +33,8 @@ ready_function *ready_best(void) {
 
 starts_function *ready_starts_best(void) {
   return ready_starts_by(best_level());
+}
+
+const path_sky *ready_sky_best(void) {
+  return ready_sky_by(best_level());
 }

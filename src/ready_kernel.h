@@ -66,8 +66,8 @@ static inline void ready_run(ready_work *w, const ready_job *j, size_t from,
   }
   lanes_find(&w->v);
   ready_frame(w);
-  if (m != NULL) ready_keys(w, m);
-  if (m != NULL) ready_fetch(w, m);
+  if (m != NULL) ready_keys(m, &w->v.p, &w->r.n, w->cell);
+  if (m != NULL) ready_fetch(m, w->cell);
   ready_draw(w, j, from, n);
   ready_from(w);
   w->clear = 0;
@@ -89,6 +89,8 @@ static inline void ready_run(ready_work *w, const ready_job *j, size_t from,
 static void ready_kernel(const ready_job *j, size_t n) {
   ready_work w;
   w.r = (path_ready){.lit = j->lights != NULL};
+  for (int i = 0; i < LANES; i++)
+    w.r.has_end[i] = 1;
   for (size_t i = 0; i < n; i++)
     lane_expect(j->scene, &j->hits[i]);
   for (size_t i = 0; i < n; i += LANES) {

@@ -72,6 +72,7 @@ view_paths *view_paths_new(const view_paths_settings *set, pool *threads,
   p->tracer = (path_tracer){.world = &p->world,
                             .ready = ready_best(),
                             .starts = ready_starts_best(),
+                            .sky = ready_sky_best(),
                             .seed = set->seed};
   p->by = path_integrator(&p->tracer);
   hire_workers(p);
