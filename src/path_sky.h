@@ -5,6 +5,9 @@
 
 #include "path_ready.h"
 
+// An environment that is turned about more often is asked one by one.
+#define SKY_MOST_TURNS 1024
+
 // Rays that have met nothing, LIGHT_TOGETHER at most: their directions, of any
 // length; the surface points and normals where these were sampled, and whether
 // a light sample could have found them there.  Then what is seen: the radiance,

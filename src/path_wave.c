@@ -29,10 +29,11 @@ void wave_survey(wave *w) {
   w->sheets = by->world->thorough || scene_has_sheets(s);
   w->lights = by->world->thorough || light_set_any(by->lights);
   w->lit = w->lights && once && path_ready_lights(by->lights);
-  w->asks = once && bright && by->sky != NULL;
+  bool many = by->sky != NULL && fabsf(sky->rotate) < SKY_MOST_TURNS;
+  w->asks = once && bright && many;
   w->together = once && bright && !w->asks;
   w->even = sky->kind == ENV_CONSTANT && !bright;
-  w->looks = by->sky != NULL && (sky->kind == ENV_SKY || env_has_map(sky));
+  w->looks = many && (sky->kind == ENV_SKY || env_has_map(sky));
   w->sky = env_radiance(sky, (vec3){0, 1, 0});
 }
 

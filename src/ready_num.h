@@ -5,6 +5,8 @@
 
 #include "num.h"
 
+#include <stdint.h>
+
 // num_circle for u in [0, 1].
 static inline vec2 lane_circle(float u) {
   int quarter = (int)(u * 4 + 0.5f);
@@ -13,6 +15,12 @@ static inline vec2 lane_circle(float u) {
         sine = (quarter & 1) != 0 ? r.x : r.y;
   return (vec2){((quarter + 1) & 2) != 0 ? -cosine : cosine,
                 (quarter & 2) != 0 ? -sine : sine};
+}
+
+// floorf of what an int32_t holds.
+static inline float lane_floor(float x) {
+  float near = (float)(int32_t)x;
+  return x < near ? near - 1 : near;
 }
 
 // num_turns.

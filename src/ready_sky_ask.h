@@ -124,7 +124,7 @@ static inline void sky_direct(sky_ways *w, const light_env *l) {
     float left = (float)c->column[i] - 0.5f;
     float u = (left + c->x[i]) / width - rotate;
     float v = (top + c->high[i] * c->y[i]) / height;
-    vec2 around = lane_circle(u - float_floor(u)), down = lane_circle(0.5f * v);
+    vec2 around = lane_circle(u - lane_floor(u)), down = lane_circle(0.5f * v);
     w->v[i] = v;
     lanes_set(&w->wi, i,
               (vec3){-around.y * down.y, down.x, around.x * down.y});

@@ -60,9 +60,9 @@ static inline void sky_lookup(sky_view *s, const env *e) {
   const float width = (float)e->map.width, height = (float)e->map.height;
   for (int i = 0; i < LANES; i++) {
     float u = s->u[i] + e->rotate;
-    float x = (u - float_floor(u)) * width - 0.5f;
+    float x = (u - lane_floor(u)) * width - 0.5f;
     float y = s->v[i] * height - 0.5f;
-    float left = float_floor(x), top = float_floor(y);
+    float left = lane_floor(x), top = lane_floor(y);
     s->left[i] = (int)left, s->top[i] = (int)top;
     s->x[i] = x - left, s->y[i] = y - top;
   }
@@ -87,10 +87,10 @@ static inline void sky_cell_at(sky_view *s, const light_env *l) {
   const int columns = l->map.width, last = l->map.height;
   for (int i = 0; i < LANES; i++) {
     float u = s->u[i] + rotate;
-    float x = (u - float_floor(u)) * width + 0.5f;
+    float x = (u - lane_floor(u)) * width + 0.5f;
     float y = s->v[i] * height + 0.5f;
     int column = (int)x, row = (int)y;
-    row = row < 0 ? 0 : row <= last ? row : last;
+    row = row < last ? row : last;
     float in_x = x - (float)column, in_y = y - (float)row;
     float below = float_min(2 * in_y, 1);
     in_y = row == 0 ? 2 * in_y - 1 : in_y;

@@ -22,7 +22,7 @@ static inline float float_min(float a, float b) {
 // floorf, which compilers call from a library because not every processor has
 // an instruction for it.  From 2^23 on all floats are integers.
 static inline float float_floor(float x) {
-  int small = x > -0x1p23f && x < 0x1p23f;
+  int small = (x > -0x1p23f) & (x < 0x1p23f);
   float near = (float)(int)(small ? x : 0);
   float below = x < near ? near - 1 : near;
   return small ? below : x;
