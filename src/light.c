@@ -6,10 +6,6 @@
 
 #include <stdlib.h>
 
-// The share of choices that goes evenly to all kinds of light that there are:
-// nobody knows what is in between.
-#define EVEN_SHARE 0.2f
-
 static void add_far(light_set *out, const light *l) {
   light_far f = {vec3_unit(vec3_neg(l->at)), l->power, light_mean(l->power)};
   if (l->kind == LIGHT_DIR && f.power > 0) out->far[out->far_count++] = f;
@@ -90,7 +86,7 @@ static float far_weight(const light_far *f, const light_place *at) {
 
 static float share_of(float weight, float sum, int kinds) {
   return weight > 0
-             ? (1 - EVEN_SHARE) * weight / sum + EVEN_SHARE / (float)kinds
+             ? (1 - LIGHT_EVEN_SHARE) * weight / sum + LIGHT_EVEN_SHARE / (float)kinds
              : 0;
 }
 

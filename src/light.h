@@ -106,6 +106,10 @@ bool light_ask_all_but_env(const light_set *l, const light_question *q,
 float light_pdf_triangle(const light_set *l, vec3 p, vec3 n, uint32_t triangle,
                          vec3 q);
 
+// The share of choices that goes evenly to all kinds of light that there are:
+// nobody knows what is in between.
+#define LIGHT_EVEN_SHARE 0.2f
+
 // The probability that light_sample_at asks the environment.
 float light_env_share(const light_set *l, vec3 p, vec3 n);
 

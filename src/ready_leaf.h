@@ -6,22 +6,24 @@
 
 #include "ready_work.h"
 
-// light_bound_emitter of a triangle.
-static inline void ready_bound(const ready_work *w, const light_emitter *e,
-                               float *out) {
+// light_bound_emitter; a point is all in one place, above which all is.
+static inline void ready_bound(const lanes3 *from, const lanes3 *normal,
+                               const light_emitter *e, float *out) {
   const light_triangle t = e->shape;
-  float power = e->power;
+  const float power = e->power;
+  const int point = e->is_point;
   for (int i = 0; i < LANES; i++) {
-    vec3 p = lanes_at(&w->v.p, i), n = lanes_at(&w->r.n, i);
+    vec3 p = lanes_at(from, i), n = lanes_at(normal, i);
     vec3 way = vec3_sub(t.middle, p);
     float distance = float_max(vec3_length(way), t.radius);
     float inverse = 1 / distance, sine = t.radius * inverse;
     float cosine = float_min(1, vec3_dot(n, way) * inverse + sine);
     float height = vec3_dot(t.n, vec3_sub(p, t.a));
     float falls = power * cosine * (inverse * inverse);
-    float bound =
-        float_min(1, height * inverse + sine) * (falls < INFINITY ? falls : 0);
+    falls = falls < INFINITY ? falls : 0;
+    float bound = float_min(1, height * inverse + sine) * falls;
     bound = height > LIGHT_LEAST_HEIGHT * t.radius ? bound : 0;
+    bound = point ? falls : bound;
     bound = cosine > 0 ? bound : 0;
     out[i] = distance > 0 ? bound : 0;
   }
@@ -58,7 +60,7 @@ static inline void ready_leaf(ready_work *w, const light_tree *t,
   const light_node *root = &t->nodes[0];
   float each[LIGHT_LEAF][LANES];
   for (uint32_t e = 0; e < root->count; e++)
-    ready_bound(w, &t->emitters[root->first + e], each[e]);
+    ready_bound(&w->v.p, &w->r.n, &t->emitters[root->first + e], each[e]);
   ready_choose(w, each, root->count, u);
   for (int i = 0; i < LANES; i++) {
     w->light.emitter[i] += root->first;

@@ -17,6 +17,7 @@ typedef struct sky_view {
   float x[LANES], y[LANES];
   sky_texels texels;
   sky_cells cell;
+  sky_kinds kinds;
   uint32_t known[LANES];  // cell of the memory
   float share[LANES], part[LANES];  // probabilities of the cell and its part
   float pdf[LANES];
@@ -119,22 +120,20 @@ static inline void sky_expect_cells(const sky_view *s, const light_env *e) {
   }
 }
 
-// Whether memory knows parts of the environment.
-static inline bool sky_known(const light_set *l) {
-  return l->memory != NULL && l->sky.count > 0;
-}
-
-// light_memory_key of all.
-static inline void sky_keys(sky_view *s, const light_memory *m,
-                            const sky_looks *q, size_t from, size_t n) {
+// From where sixteen look: which kinds of light would be asked there, and where
+// in the memory that is.
+static inline void sky_stand(sky_view *s, const light_set *l,
+                             const sky_looks *q, size_t from, size_t n) {
   lanes3 p, normal;
   for (int i = 0; i < LANES; i++) {
     size_t k = from + (size_t)i < n ? from + (size_t)i : n - 1;
     lanes_set(&p, i, q->from[k]);
     lanes_set(&normal, i, q->from_n[k]);
   }
-  ready_keys(m, &p, &normal, s->known);
-  ready_fetch(m, s->known);
+  sky_kinds_at(l, &p, &normal, &s->kinds);
+  if (!sky_known(l)) return;
+  ready_keys(l->memory, &p, &normal, s->known);
+  ready_fetch(l->memory, s->known);
 }
 
 // Lane i: the probability of the cell, and that its part is asked.
@@ -193,8 +192,7 @@ static inline void sky_rival(sky_view *s, const light_set *l, sky_looks *q,
     size_t k = from + (size_t)i;
     if (!q->rival[k] || s->blind[i]) continue;
     float pdf = s->pdf[i] < INFINITY ? s->pdf[i] : 0;
-    pdf *= light_env_share(l, q->from[k], q->from_n[k]);
-    q->pdf[k] = pdf * s->part[i];
+    q->pdf[k] = s->kinds.sky[i] * pdf * s->part[i];
   }
 }
 
@@ -209,7 +207,7 @@ static inline void sky_aim(sky_view *s, const light_set *l, const sky_looks *q,
   if (!table) return;
   sky_cell_at(s, &l->env);
   sky_expect_cells(s, &l->env);
-  if (sky_known(l)) sky_keys(s, l->memory, q, from, n);
+  sky_stand(s, l, q, from, n);
 }
 
 static void sky_look_kernel(const light_set *l, sky_looks *q, size_t n) {
