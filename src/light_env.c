@@ -221,6 +221,8 @@ static void find_column(const light_env *l, light_env_spot *s) {
   corners at = corners_of(l, s->column, s->row);
   __builtin_prefetch(at.above + at.left);
   __builtin_prefetch(at.below + at.left);
+  __builtin_prefetch(&at.above[at.right].z);
+  __builtin_prefetch(&at.below[at.right].z);
 }
 
 void light_env_find_columns(const light_env *l, light_env_spot *s, size_t n) {

@@ -108,8 +108,12 @@ static inline void sky_expect_texels(const sky_view *s, const image *m) {
     size_t left = s->left[i] < 0 ? 0 : (size_t)s->left[i];
     int top = s->top[i] < 0 ? 0 : s->top[i];
     int below = s->top[i] + 1 < m->height ? s->top[i] + 1 : m->height - 1;
-    __builtin_prefetch(m->pixels + (size_t)top * (size_t)m->width + left);
-    __builtin_prefetch(m->pixels + (size_t)below * (size_t)m->width + left);
+    const vec3 *a = m->pixels + (size_t)top * (size_t)m->width + left;
+    const vec3 *b = m->pixels + (size_t)below * (size_t)m->width + left;
+    __builtin_prefetch(a);
+    __builtin_prefetch(b);
+    __builtin_prefetch(&a[1].z);
+    __builtin_prefetch(&b[1].z);
   }
 }
 
