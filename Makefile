@@ -63,7 +63,7 @@ CHAPTER_12 := $(CHAPTER_11) simd_base simd_avx2 simd simd_lanes simd_runs \
              wide_descent wide_flight wide_pending wide_steps wide_start wide_stream wide_crowd wide_crowd_ready wide_part wide_crowd_settle wide_crowd_leaf wide_together wide_kernel wide_base wide_avx2 wide_avx512 wide wide_patch \
              vertex_lanes vertex_lanes_facet vertex_lanes_smooth vertex_lanes_find \
              ready_levels ready_work ready_numbers ready_starts ready_num ready_keys ready_leaf ready_pick ready_triangle ready_leave ready_clear \
-             ready_sky ready_sky_kinds ready_sky_way ready_sky_ask ready_sky_look ready_lane ready_kernel ready_base ready_avx2 ready_avx512 ready
+             ready_sky ready_sky_kinds ready_sky_list ready_sky_way ready_sky_ask ready_sky_view ready_sky_rival ready_sky_look ready_lane ready_kernel ready_base ready_avx2 ready_avx512 ready
 CHAPTER_13 := $(CHAPTER_12) plan_sight plan plan_word plan_use tree_cache
 CHAPTER_14 := $(CHAPTER_13) post view_state view_script view_paths view_window
 CHAPTER_15 := $(CHAPTER_14) glyph sketch plot two_means halves jury adaptive doubling

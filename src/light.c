@@ -85,9 +85,9 @@ static float far_weight(const light_far *f, const light_place *at) {
 }
 
 static float share_of(float weight, float sum, int kinds) {
-  return weight > 0
-             ? (1 - LIGHT_EVEN_SHARE) * weight / sum + LIGHT_EVEN_SHARE / (float)kinds
-             : 0;
+  return weight > 0 ? (1 - LIGHT_EVEN_SHARE) * weight / sum +
+                          LIGHT_EVEN_SHARE / (float)kinds
+                    : 0;
 }
 
 // Nothing needs to be weighed where all lights are of one kind.

@@ -98,8 +98,10 @@ static inline void sky_density(const sky_cells *c, const light_env *l,
 static inline void sky_blend(const sky_texels *t, const float *x,
                              const float *y, float scale, lanes3 *out) {
   for (int i = 0; i < LANES; i++) {
-    vec3 above = vec3_lerp(lanes_at(&t->at[0], i), lanes_at(&t->at[1], i), x[i]);
-    vec3 below = vec3_lerp(lanes_at(&t->at[2], i), lanes_at(&t->at[3], i), x[i]);
+    vec3 above =
+        vec3_lerp(lanes_at(&t->at[0], i), lanes_at(&t->at[1], i), x[i]);
+    vec3 below =
+        vec3_lerp(lanes_at(&t->at[2], i), lanes_at(&t->at[3], i), x[i]);
     lanes_set(out, i, vec3_scale(vec3_lerp(above, below, y[i]), scale));
   }
 }

@@ -1,5 +1,5 @@
-// ready_sky_way.h — sixteen directions to an environment: light_env_sample_cell,
-// step by step.
+// ready_sky_way.h — sixteen directions to an environment:
+// light_env_sample_cell, step by step.
 
 #ifndef READY_SKY_WAY_H
 #define READY_SKY_WAY_H
@@ -29,8 +29,8 @@ static inline void sky_direct(sky_ways *w, const light_env *l) {
     float a11 = c->a[3][i];
     float y = lane_slope(a00 + a01, a10 + a11, w->u2[i]);
     c->y[i] = y;
-    c->x[i] = lane_slope(a00 * (1 - y) + a10 * y, a01 * (1 - y) + a11 * y,
-                         w->u1[i]);
+    c->x[i] =
+        lane_slope(a00 * (1 - y) + a10 * y, a01 * (1 - y) + a11 * y, w->u1[i]);
   }
   for (int i = 0; i < LANES; i++) {
     float row = (float)c->row[i], top = c->row[i] > 0 ? row - 0.5f : 0;
@@ -39,8 +39,7 @@ static inline void sky_direct(sky_ways *w, const light_env *l) {
     float v = (top + c->high[i] * c->y[i]) / height;
     vec2 around = lane_circle(u - lane_floor(u)), down = lane_circle(0.5f * v);
     w->v[i] = v;
-    lanes_set(&w->wi, i,
-              (vec3){-around.y * down.y, down.x, around.x * down.y});
+    lanes_set(&w->wi, i, (vec3){-around.y * down.y, down.x, around.x * down.y});
   }
 }
 
