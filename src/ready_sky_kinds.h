@@ -26,11 +26,12 @@ static inline void sky_bound_group(const light_group *g, const lanes3 *from,
     float c = -vec3_dot(k.axis, way) * inverse;
     float aside = c * k.cos_cone + sqrtf(float_max(1 - c * c, 0)) * k.sin_cone;
     float ahead = float_min(1, (c < k.cos_cone ? aside : 1) + sine);
-    ahead = cone & (sine < 1) ? ahead : 1;
+    int narrow = cone & (sine < 1);
+    ahead = narrow ? ahead : 1;
     float falls = k.power * cosine * (inverse * inverse);
     float bound = ahead * (falls < INFINITY ? falls : 0);
-    bound = (cosine > 0) & (ahead > 0) & (distance > 0) ? bound : 0;
-    out[i] = bound;
+    int lit = (cosine > 0) & (ahead > 0) & (distance > 0);
+    out[i] = lit ? bound : 0;
   }
 }
 
@@ -78,7 +79,8 @@ static inline void sky_bound_far(const light_set *l, const lanes3 *normal,
 static inline float lane_kind(float weight, float sum, int kinds) {
   float share =
       (1 - LIGHT_EVEN_SHARE) * weight / sum + LIGHT_EVEN_SHARE / (float)kinds;
-  return (weight > 0) & (sum < INFINITY) ? share : 0;
+  int any = (weight > 0) & (sum < INFINITY);
+  return any ? share : 0;
 }
 
 // Normals are not zero.

@@ -60,7 +60,8 @@ static inline void sky_find(sky_ways *w, const light_env *l,
   sky_blend(&w->cell.texels, w->cell.x, w->cell.y, l->env->scale, &w->radiance);
   for (int i = 0; i < LANES; i++) {
     float pdf = w->cell.mean[i] > 0 ? w->pdf[i] : 0;
-    w->pdf[i] = (pdf > 0) & (pdf < INFINITY) ? pdf : 0;
+    int found = (pdf > 0) & (pdf < INFINITY);
+    w->pdf[i] = found ? pdf : 0;
   }
 }
 
