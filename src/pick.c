@@ -76,7 +76,7 @@ static uint32_t count_ended(const uint32_t *upto, uint32_t unit) {
   memcpy(&a, upto, sizeof a);
   memcpy(&b, upto + 4, sizeof b);
   four ended = (a <= at) + (b <= at);
-  return (uint32_t) - (ended[0] + ended[1] + ended[2] + ended[3]);
+  return 0 - (uint32_t)(ended[0] + ended[1] + ended[2] + ended[3]);
 }
 
 static uint32_t number_of(const pick *p, uint32_t unit) {

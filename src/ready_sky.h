@@ -61,14 +61,14 @@ static inline void sky_corners(sky_cells *c, int i, const light_env *l) {
 
 // cell_of, cell_mean and cell_height.
 static inline void sky_weigh(sky_cells *c, const light_env *l) {
-  const float mean = l->mean, third = 1.0f / 3;
+  const float less = l->less, third = 1.0f / 3;
   const int last = l->map.height;
   for (int k = 0; k < 4; k++) {
     const float *scale = k < 2 ? c->above : c->below;
     for (int i = 0; i < LANES; i++) {
       vec3 t = lanes_at(&c->texels.at[k], i);
       float bright = t.x * third + t.y * third + t.z * third;
-      c->a[k][i] = float_max(bright - mean, 0) * scale[i];
+      c->a[k][i] = float_max(bright - less, 0) * scale[i];
     }
   }
   for (int i = 0; i < LANES; i++) {

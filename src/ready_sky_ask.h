@@ -10,18 +10,18 @@
 static inline void sky_tell(const light_set *l, const sky_list *list,
                             size_t first, path_ready *r) {
   const light_env_spot *spots[LANES];
+  const env *e = l->env.env;
   sky_ways w;
   for (size_t i = 0; i < LANES; i++)
     spots[i] = &list->spots[first + i < list->count ? first + i : first];
-  sky_find(&w, &l->env, spots);
+  sky_find(&w, sky_table(l), spots);
   for (size_t i = 0; i < LANES && first + i < list->count; i++) {
     size_t k = first + i, who = list->who[k];
     light_sample s = {.part = list->part[k], .chosen = list->chosen[k]};
     s.pdf = w.pdf[i] * s.chosen;
     s.wi = lanes_at(&w.wi, (int)i);
     s.radiance = lanes_at(&w.radiance, (int)i);
-    if (l->env.env->kind != ENV_MAP)
-      s.radiance = env_radiance(l->env.env, s.wi);
+    if (e->kind != ENV_MAP) s.radiance = env_radiance(e, s.wi);
     sky_answer(&r[who / LANES], (int)(who % LANES), &s);
   }
 }

@@ -28,6 +28,11 @@ static inline bool sky_known(const light_set *l) {
   return l->memory != NULL && l->sky.count > 0;
 }
 
+// The table that is asked.
+static inline const light_env *sky_table(const light_set *l) {
+  return sky_known(l) ? l->sky.env : &l->env;
+}
+
 static inline void sky_answer(path_ready *r, int i, const light_sample *s) {
   r->found[i] = s->pdf > 0;
   r->delta[i] = s->delta;

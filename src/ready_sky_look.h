@@ -28,8 +28,8 @@ static inline void sky_aim(sky_view *s, const light_set *l, const sky_looks *q,
   if (env_has_map(e)) sky_lookup(s, e);
   if (env_has_map(e)) sky_expect_texels(s, &e->map);
   if (!table) return;
-  sky_cell_at(s, &l->env);
-  sky_expect_cells(s, &l->env);
+  sky_cell_at(s, sky_table(l));
+  sky_expect_cells(s, sky_table(l));
   sky_stand(s, l, q, from, n);
 }
 

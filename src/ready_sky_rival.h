@@ -54,7 +54,7 @@ static inline void sky_stand(sky_view *s, const light_set *l,
 
 // Lane i: the probability of the cell, and that its part is asked.
 static inline void sky_share(sky_view *s, int i, const light_set *l) {
-  const light_env *e = &l->env;
+  const light_env *e = sky_table(l);
   int column = s->cell.column[i], row = s->cell.row[i];
   float share = pick_share(&e->columns[row], (uint32_t)column);
   s->part[i] = 1;
@@ -80,16 +80,17 @@ static inline bool sky_same(const sky_view *s, int i, const image *m) {
 // The density of a light sample where there could have been one.
 static inline void sky_rival(sky_view *s, const light_set *l, sky_looks *q,
                              size_t from, int n) {
-  const bool map = env_has_map(l->env.env);
+  const light_env *e = sky_table(l);
+  const bool map = env_has_map(e->env);
   if (map) s->cell.texels = s->texels;
   for (int i = 0; i < n; i++) {
     if (!q->rival[from + (size_t)i]) continue;
     sky_share(s, i, l);
-    sky_rows(&s->cell, i, &l->env);
-    if (!map || !sky_same(s, i, &l->env.map)) sky_corners(&s->cell, i, &l->env);
+    sky_rows(&s->cell, i, e);
+    if (!map || !sky_same(s, i, &e->map)) sky_corners(&s->cell, i, e);
   }
-  sky_weigh(&s->cell, &l->env);
-  sky_density(&s->cell, &l->env, s->v, s->share, s->pdf);
+  sky_weigh(&s->cell, e);
+  sky_density(&s->cell, e, s->v, s->share, s->pdf);
   for (int i = 0; i < n; i++) {
     size_t k = from + (size_t)i;
     if (!q->rival[k] || s->blind[i]) continue;

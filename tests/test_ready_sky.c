@@ -93,7 +93,7 @@ static world *new_world(map_kind sky, company with, light_set *lights) {
   vec3 lo = w->scene.lo, hi = w->scene.hi;
   if (sky != EVEN && (with == KNOWN || with == MANY_KNOWN))
     lights->memory =
-        taught(light_set_cut_sky(lights, lo, hi, &w->mem), &w->mem);
+        taught(light_set_cut_sky(lights, lo, hi, &w->mem, NULL), &w->mem);
   if (with == NEAR_KNOWN)
     lights->memory = taught(light_set_cut(lights, lo, hi, &w->mem), &w->mem);
   return w;
