@@ -93,10 +93,11 @@ static int part_ref(const parting *p, const sah_ref *r, uint32_t position,
   if (keep_whole(cut, &r->box, &side)) return 1 << side;
   vec3 corner[3];
   corners_of(corner, p->shop->b, r->as.triangle);
+  bvh_outline of = bvh_outline_of(corner);
   bvh_slice below = {cut->axis, -INFINITY, cut->at};
   bvh_slice above = {cut->axis, cut->at, INFINITY};
-  int sides = (bvh_split_clip(&part[0].box, &r->box, corner, below) ? 1 : 0) |
-              (bvh_split_clip(&part[1].box, &r->box, corner, above) ? 2 : 0);
+  int sides = (bvh_split_clip(&part[0].box, &r->box, &of, below) ? 1 : 0) |
+              (bvh_split_clip(&part[1].box, &r->box, &of, above) ? 2 : 0);
   part[0].as.triangle = part[1].as.triangle = r->as.triangle;
   part[0].as.unused = part[1].as.unused = SPLIT_LARGE;
   return sides;

@@ -432,7 +432,8 @@ static void clips_are_conservative(void **unused) {
     for (int k = 0; k < 3; k++)
       q[k] = coordinate(p, w, k);
     if (q[axis] < (double)s.lo || q[axis] > (double)s.hi) continue;
-    assert_true(bvh_split_clip(&out, &own, p, s));
+    bvh_outline t = bvh_outline_of(p);
+    assert_true(bvh_split_clip(&out, &own, &t, s));
     assert_true(out.lo[axis] >= s.lo && out.hi[axis] <= s.hi);
     for (int k = 0; k < 3; k++) {
       assert_true(out.lo[k] >= own.lo[k] && out.hi[k] <= own.hi[k]);
