@@ -27,6 +27,9 @@ enum { ITEMS = (WIDE - 1) * BVH_MAX_DEPTH + 1 };
 // Whatever holds more than 1 / PARTS of the triangles is above the parts.
 enum { PARTS = 64, ABOVE = PARTS * BVH_MAX_DEPTH };
 
+// The corners of the triangle so many places ahead are asked for.
+enum { AHEAD = 8 };
+
 // So many bundles are copied in one go.
 enum { BUNDLES = 1024 };
 
@@ -83,17 +86,26 @@ static void quantise_axis(wide_node *w, int k, uint32_t i, float lo, float hi) {
 }
 
 // Copy n triangles of a leaf from `first` of the order to the same place of the
-// tree.
+// tree.  On the way ask for what leaves after it will want: the indices of one
+// triangle, and the corners of another, nearer one, whose indices are here.
 static void write_triangles(const collapse *c, uint32_t first, uint32_t n) {
-  const uint32_t *list = c->b->order + first;
+  const uint32_t *list = c->b->order + first, *index = c->b->index;
+  const vec3 *p = c->b->positions;
   uint32_t *to = c->out->triangles + 10 * (size_t)first;
+  bool more = c->b->refs - first >= n + 2 * AHEAD;
   for (uint32_t i = 0; i < n; i++) {
-    const uint32_t *v = c->b->index + 3 * (size_t)list[i];
+    if (more) {
+      const uint32_t *near = index + 3 * (size_t)list[i + AHEAD];
+      __builtin_prefetch(index + 3 * (size_t)list[i + 2 * AHEAD]);
+      __builtin_prefetch(&p[near[0]]);
+      __builtin_prefetch(&p[near[1]]);
+      __builtin_prefetch(&p[near[2]]);
+    }
+    const uint32_t *v = index + 3 * (size_t)list[i];
     for (uint32_t k = 0; k < 3; k++) {
-      const vec3 *corner = &c->b->positions[v[k]];
-      memcpy(&to[(3 * k + 0) * n + i], &corner->x, sizeof(float));
-      memcpy(&to[(3 * k + 1) * n + i], &corner->y, sizeof(float));
-      memcpy(&to[(3 * k + 2) * n + i], &corner->z, sizeof(float));
+      memcpy(&to[(3 * k + 0) * n + i], &p[v[k]].x, sizeof(float));
+      memcpy(&to[(3 * k + 1) * n + i], &p[v[k]].y, sizeof(float));
+      memcpy(&to[(3 * k + 2) * n + i], &p[v[k]].z, sizeof(float));
     }
     to[9 * n + i] = list[i];
   }
