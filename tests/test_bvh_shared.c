@@ -3,18 +3,9 @@
 
 #include "bvh_shared.h"
 #include "bvh_split.h"
-#include "num.h"
-#include "shapes.h"
+#include "cut_groves.h"
 #include "slab.h"
-#include "wide.h"
 #include "wide_patch.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 // Prisms of 16 sides that lean across each other, and small triangles around
 // them, which land in the same bundles now and then.
@@ -78,30 +69,7 @@ static void shapes_all(shape out[SHAPES], arena *mem) {
       shape_moved(shape_columns(mem, 40), "far", one, (vec3){3e4f, 0, -3e4f});
 }
 
-static bvh mesh_of(const shape *s) {
-  return (bvh){.positions = s->positions,
-               .index = s->index,
-               .triangle_count = s->triangles};
-}
-
-// A mesh and its trees.
-typedef struct grove {
-  shape s;
-  bvh shared, plain;
-  wide_tree wide;
-  uint32_t wrong;
-} grove;
-
-static void grove_plant(grove *g, shape s, arena *mem) {
-  bvh of = mesh_of(&s);
-  *g = (grove){.s = s};
-  bvh_shared_build(&g->shared, &of, (double)INFINITY, mem, NULL);
-  bvh_build(&g->plain, s.positions, s.index, s.triangles, BVH_COARSE, mem,
-            NULL);
-  wide_tree_build(&g->wide, &g->shared, mem, NULL);
-}
-
-// A point of a triangle, and how far it may be from it.
+// A point of a triangle.
 static vec3 point_on(const shape *s, uint32_t t, uint64_t *state) {
   const uint32_t *v = s->index + 3 * (size_t)t;
   float a = shape_random(state), b = (1 - a) * shape_random(state);
@@ -115,44 +83,16 @@ static uint32_t some_triangle(const shape *s, uint64_t *state) {
   return t < s->triangles ? t : 0;
 }
 
-static bool all_agree(const grove *g, const ray *r) {
-  hit list = {0}, tree = {0}, wide = {0};
-  tracer t = wide_tracer(&g->wide);
-  bool found = brute_closest(&g->plain, r, &list);
-  return brute_closest(&g->shared, r, &tree) == found &&
-         memcmp(&tree, &list, sizeof list) == 0 &&
-         bvh_closest(&g->shared, r, &tree) == found &&
-         t.closest(t.tree, r, &wide) == found &&
-         bvh_any(&g->shared, r) == found && t.any(t.tree, r) == found &&
-         memcmp(&tree, &list, sizeof list) == 0 &&
-         memcmp(&wide, &list, sizeof list) == 0;
+// From before a point of a triangle; every other ray lies in its plane.
+static ray ray_at(const cut_grove *g, int i, uint64_t *state) {
+  uint32_t t = some_triangle(&g->s, state);
+  vec3 a = point_on(&g->s, t, state);
+  if (i % 2) t = some_triangle(&g->s, state);
+  vec3 d = vec3_sub(point_on(&g->s, t, state), a);
+  return ray_from(vec3_mad(a, -shape_random(state), d), d);
 }
 
-enum { BATCH = 200 };
-
-static void try_batch(void *context, size_t item, int worker) {
-  (void)worker;
-  grove *g = context;
-  uint64_t state = 977 * item + 1;
-  for (int i = 0; i < BATCH; i++) {
-    uint32_t t = some_triangle(&g->s, &state);
-    vec3 a = point_on(&g->s, t, &state);
-    // Every other ray lies in the plane of a triangle.
-    if (i % 2) t = some_triangle(&g->s, &state);
-    vec3 d = vec3_sub(point_on(&g->s, t, &state), a);
-    ray r = ray_from(vec3_mad(a, -shape_random(&state), d), d);
-    hit h;
-    // Only told apart from 0.
-    if (!all_agree(g, &r)) g->wrong = 1;
-    if (!bvh_closest(&g->shared, &r, &h)) continue;
-    ray before = r, behind = r;
-    before.tmax = behind.tmin = h.t;
-    if (!all_agree(g, &before) || !all_agree(g, &behind)) g->wrong = 1;
-  }
-}
-
-// The list, the tree and the wide tree find the same triangle, t and weights to
-// the bit, also on rays that begin or end at the hit.
+// All ways to ask agree (cut_groves.h).
 static void tree_equals_list(void **unused) {
   (void)unused;
   arena mem = {0};
@@ -160,41 +100,21 @@ static void tree_equals_list(void **unused) {
   shape all[SHAPES];
   shapes_all(all, &mem);
   for (int i = 0; i < SHAPES; i++) {
-    grove g;
-    grove_plant(&g, all[i], &mem);
+    cut_grove g;
+    cut_grove_plant(&g, all[i], bvh_shared_build, &mem);
     // Fences are cut one by one.
-    assert_true((g.shared.bundles == NULL) ==
+    assert_true((g.cut.bundles == NULL) ==
                 (strcmp(all[i].name, "fences") == 0));
-    pool_run(threads, many(10000) / BATCH, try_batch, &g);
-    if (g.wrong) print_message("# %s differs\n", g.s.name);
-    assert_int_equal(g.wrong, 0);
+    g.ray = ray_at;
+    cut_grove_check(&g, many(10000), threads);
   }
   pool_free(threads);
   arena_free(&mem);
 }
 
-static double coordinate(vec3 v, int k) {
-  return (double)(k == 0 ? v.x : k == 1 ? v.y : v.z);
-}
-
-// Whether a leaf that has triangle t holds a point, or all of p[0..n-1].
-static bool leaf_holds(const bvh *b, uint32_t t, double p[][3], int n) {
-  for (uint32_t i = 0; i < b->node_count; i++) {
-    const bvh_node *node = &b->nodes[i];
-    bool has = false, holds = true;
-    for (uint32_t k = 0; k < node->count; k++)
-      has |= b->order[node->first + k] == t;
-    for (int j = 0; j < n && has; j++)
-      for (int k = 0; k < 3; k++)
-        holds = holds && p[j][k] >= coordinate(node->lo, k) &&
-                p[j][k] <= coordinate(node->hi, k);
-    if (has && holds) return true;
-  }
-  return false;
-}
-
-// The law on which the equality rests: every point of a large triangle is in
-// the box of a leaf that has it, and a small one is whole in one.
+// The law on which the equality rests: every point of a large triangle, between
+// neighbouring floats, is in the box of a leaf that has it, and a small one is
+// whole in one.
 static void leaves_cover_triangles(void **unused) {
   (void)unused;
   arena mem = {0};
@@ -203,30 +123,20 @@ static void leaves_cover_triangles(void **unused) {
   uint64_t state = 3;
   uint32_t small = 0;
   for (int i = 0; i < SHAPES; i++) {
-    grove g;
-    grove_plant(&g, all[i], &mem);
-    vec3 lo = g.plain.nodes[0].lo, hi = g.plain.nodes[0].hi;
-    double least = (double)slab_large(&(aabb){lo, hi});
+    cut_grove g;
+    cut_grove_plant(&g, all[i], bvh_shared_build, &mem);
+    float least = slab_large(&(aabb){g.lo, g.plain.nodes[0].hi});
     for (uint32_t k = 0; k < many(4000); k++) {
       uint32_t t = some_triangle(&g.s, &state);
-      double a = (double)shape_random(&state), c = (double)shape_random(&state);
-      if (k % 4 == 0) a = 0;
-      const double w[3] = {1 - a, a * (1 - c), a * c};
-      double p[3][3], on[1][3] = {{0}}, size = 0;
-      for (int axis = 0; axis < 3; axis++) {
-        for (int j = 0; j < 3; j++) {
-          uint32_t v = g.s.index[3 * (size_t)t + (size_t)j];
-          p[j][axis] = coordinate(g.s.positions[v], axis);
-          on[0][axis] += w[j] * p[j][axis];
-        }
-        double low = fmin(p[0][axis], fmin(p[1][axis], p[2][axis]));
-        double high = fmax(p[0][axis], fmax(p[1][axis], p[2][axis]));
-        on[0][axis] = fmin(fmax(on[0][axis], low), high);
-        size = fmax(size, high - low);
-      }
-      small += size <= least;
-      assert_true(size > least ? leaf_holds(&g.shared, t, on, 1)
-                               : leaf_holds(&g.shared, t, p, 3));
+      vec3 p[3], lo, hi;
+      corners_of(p, &g.s, t);
+      point_between(&lo, &hi, p, k % 4 == 0, &state);
+      vec3 low = vec3_min(p[0], vec3_min(p[1], p[2]));
+      vec3 high = vec3_max(p[0], vec3_max(p[1], p[2]));
+      bool whole = !(vec3_peak(vec3_sub(high, low)) > least);
+      small += whole;
+      assert_true(whole ? leaf_holds(&g.cut, t, low, high)
+                        : leaf_holds(&g.cut, t, lo, hi));
     }
   }
   assert_true(small > many(100));
@@ -262,31 +172,31 @@ static void check_bundles(const bvh *b, arena *mem) {
 static void cuts_where_it_pays(void **unused) {
   (void)unused;
   arena mem = {0};
-  grove g;
-  grove_plant(&g, shape_columns(&mem, 1000), &mem);
-  assert_non_null(g.shared.bundles);
-  check_bundles(&g.shared, &mem);
-  assert_true(g.shared.cost < 0.5 * g.plain.cost);
+  cut_grove g;
+  cut_grove_plant(&g, shape_columns(&mem, 1000), bvh_shared_build, &mem);
+  assert_non_null(g.cut.bundles);
+  check_bundles(&g.cut, &mem);
+  assert_true(g.cut.cost < 0.5 * g.plain.cost);
   assert_true(wide_tree_bytes(&g.wide) <= 64 * (size_t)g.s.triangles);
   assert_int_equal(g.wide.triangle_count, g.s.triangles);
   bvh few, of = mesh_of(&g.s);
-  bvh_shared_build(&few, &of, 0.9 * g.shared.cut_rays, &mem, NULL);
+  bvh_shared_build(&few, &of, 0.9 * g.cut.cut_rays, &mem, NULL);
   assert_int_equal(few.node_count, g.plain.node_count);
   assert_memory_equal(few.nodes, g.plain.nodes,
                       few.node_count * sizeof *few.nodes);
-  bvh_shared_build(&few, &of, 1.1 * g.shared.cut_rays, &mem, NULL);
-  assert_int_equal(few.node_count, g.shared.node_count);
+  bvh_shared_build(&few, &of, 1.1 * g.cut.cut_rays, &mem, NULL);
+  assert_int_equal(few.node_count, g.cut.node_count);
   shape soup = shape_needles(&mem, 3000, 0.3f);
-  grove_plant(&g, soup, &mem);
-  assert_null(g.shared.bundles);
+  cut_grove_plant(&g, soup, bvh_shared_build, &mem);
+  assert_null(g.cut.bundles);
   bvh split;
   of = mesh_of(&soup);
   bvh_split_build(&split, &of, (double)INFINITY, &mem, NULL);
-  assert_int_equal(g.shared.node_count, split.node_count);
-  assert_memory_equal(g.shared.nodes, split.nodes,
+  assert_int_equal(g.cut.node_count, split.node_count);
+  assert_memory_equal(g.cut.nodes, split.nodes,
                       split.node_count * sizeof *split.nodes);
-  grove_plant(&g, shape_sphere(&mem, 280), &mem);
-  assert_int_equal(g.shared.node_count, g.plain.node_count);
+  cut_grove_plant(&g, shape_sphere(&mem, 280), bvh_shared_build, &mem);
+  assert_int_equal(g.cut.node_count, g.plain.node_count);
   arena_free(&mem);
 }
 

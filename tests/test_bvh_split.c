@@ -2,17 +2,7 @@
 
 #include "bvh_split.h"
 #include "bvh_split_clip.h"
-#include "num.h"
-#include "shapes.h"
-#include "slab.h"
-#include "wide.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "cut_groves.h"
 
 // Triangles of all lengths between random points, most of them small.
 static shape shape_mix(arena *mem, uint32_t n) {
@@ -108,32 +98,7 @@ static void shapes_all(shape out[SHAPES], arena *mem) {
   assert_int_equal(n, SHAPES);
 }
 
-// A mesh, its trees, and the box that rays are made in.
-typedef struct grove {
-  shape s;
-  bvh split, plain;
-  wide_tree wide;
-  tracer tracer;
-  vec3 lo, extent;
-  uint32_t wrong;
-} grove;
-
-static void grove_plant(grove *g, shape s, arena *mem) {
-  *g = (grove){.s = s, .extent = {1, 1, 1}};
-  bvh of = {.positions = s.positions,
-            .index = s.index,
-            .triangle_count = s.triangles};
-  bvh_split_build(&g->split, &of, (double)INFINITY, mem, NULL);
-  bvh_build(&g->plain, s.positions, s.index, s.triangles, BVH_COARSE, mem,
-            NULL);
-  wide_tree_build(&g->wide, &g->split, mem, NULL);
-  g->tracer = wide_tracer(&g->wide);
-  if (g->split.nodes == NULL) return;
-  g->lo = g->split.nodes[0].lo;
-  g->extent = vec3_sub(g->split.nodes[0].hi, g->lo);
-}
-
-static vec3 point_near(const grove *g, uint64_t *state) {
+static vec3 point_near(const cut_grove *g, uint64_t *state) {
   vec3 u = vec3_mad(vec3_all(0.5f), 0.75f, shape_point(state));
   float pick = shape_random(state);
   if (pick > 0.9f) u.x = pick > 0.95f ? 0 : 0.5f;
@@ -143,7 +108,7 @@ static vec3 point_near(const grove *g, uint64_t *state) {
 
 // A ray that lies in the plane of some triangle as nearly as rounding allows,
 // from outside of it or from inside: its t is mostly rounding.
-static ray ray_edge_on(const grove *g, uint64_t *state) {
+static ray ray_edge_on(const cut_grove *g, uint64_t *state) {
   uint32_t t = (uint32_t)(shape_random(state) * (float)g->s.triangles);
   const uint32_t *v = g->s.index + 3 * (size_t)t;
   const vec3 *p = g->s.positions;
@@ -158,7 +123,8 @@ static ray ray_edge_on(const grove *g, uint64_t *state) {
   return ray_from(a, vec3_sub(b, a));
 }
 
-static ray ray_near(const grove *g, uint64_t *state) {
+static ray ray_near(const cut_grove *g, int i, uint64_t *state) {
+  (void)i;
   vec3 o = point_near(g, state), d = vec3_sub(point_near(g, state), o);
   float pick = shape_random(state);
   if (pick < 0.2f) d.x = pick < 0.1f ? 0 : 1e-39f;
@@ -170,44 +136,8 @@ static ray ray_near(const grove *g, uint64_t *state) {
   return r;
 }
 
-// Whether all five ways to ask agree about r.
-static bool all_agree(const grove *g, const ray *r) {
-  hit list = {0}, other = {0}, tree = {0}, plain = {0}, wide = {0};
-  bool found = brute_closest(&g->plain, r, &list);
-  return brute_closest(&g->split, r, &other) == found &&
-         bvh_closest(&g->split, r, &tree) == found &&
-         bvh_closest(&g->plain, r, &plain) == found &&
-         g->tracer.closest(g->tracer.tree, r, &wide) == found &&
-         bvh_any(&g->split, r) == found && bvh_any(&g->plain, r) == found &&
-         g->tracer.any(g->tracer.tree, r) == found &&
-         memcmp(&other, &list, sizeof list) == 0 &&
-         memcmp(&tree, &list, sizeof list) == 0 &&
-         memcmp(&plain, &list, sizeof list) == 0 &&
-         memcmp(&wide, &list, sizeof list) == 0;
-}
-
-enum { BATCH = 500 };
-
-static void try_batch(void *context, size_t item, int worker) {
-  (void)worker;
-  grove *g = context;
-  uint64_t state = 977 * item + 1;
-  for (int i = 0; i < BATCH; i++) {
-    ray r = ray_near(g, &state);
-    hit h;
-    // Only told apart from 0.
-    if (!all_agree(g, &r)) g->wrong = 1;
-    if (!bvh_closest(&g->split, &r, &h)) continue;
-    // Once more with no room for a t that a box denies.
-    ray before = r, behind = r;
-    before.tmax = behind.tmin = h.t;
-    if (!all_agree(g, &before) || !all_agree(g, &behind)) g->wrong = 1;
-  }
-}
-
-// The list, the tree, the tree that cuts triangles and the wide tree made of
-// it find the same triangle, t and weights to the bit, on 30,000 rays a mesh,
-// a good part of them edge-on, and again on rays that begin or end at the hit.
+// All ways to ask agree (cut_groves.h), on 30,000 rays a mesh, a good part of
+// them edge-on.
 static void tree_equals_list(void **unused) {
   (void)unused;
   arena mem = {0};
@@ -215,19 +145,13 @@ static void tree_equals_list(void **unused) {
   shape all[SHAPES];
   shapes_all(all, &mem);
   for (int i = 0; i < SHAPES; i++) {
-    grove g;
-    grove_plant(&g, all[i], &mem);
-    pool_run(threads, many(30000) / BATCH, try_batch, &g);
-    if (g.wrong) print_message("# %s differs\n", g.s.name);
-    assert_int_equal(g.wrong, 0);
+    cut_grove g;
+    cut_grove_plant(&g, all[i], bvh_split_build, &mem);
+    g.ray = ray_near;
+    cut_grove_check(&g, many(30000), threads);
   }
   pool_free(threads);
   arena_free(&mem);
-}
-
-static bool box_within(vec3 alo, vec3 ahi, vec3 blo, vec3 bhi) {
-  return alo.x >= blo.x && alo.y >= blo.y && alo.z >= blo.z && ahi.x <= bhi.x &&
-         ahi.y <= bhi.y && ahi.z <= bhi.z;
 }
 
 // Children lie in their parents, all is reached once, every kept triangle is
@@ -276,47 +200,19 @@ static void trees_are_whole(void **unused) {
   shapes_all(all, &mem);
   uint32_t more = 0;
   for (int i = 0; i < SHAPES; i++) {
-    grove g;
-    grove_plant(&g, all[i], &mem);
-    check_tree(&g.split);
-    assert_int_equal(g.split.kept, g.plain.kept);
-    if (g.split.nodes == NULL) continue;
+    cut_grove g;
+    cut_grove_plant(&g, all[i], bvh_split_build, &mem);
+    check_tree(&g.cut);
+    assert_int_equal(g.cut.kept, g.plain.kept);
+    if (g.cut.nodes == NULL) continue;
     // The same root: margins and hits depend on it.
-    assert_memory_equal(&g.split.nodes[0].lo, &g.plain.nodes[0].lo, 12);
-    assert_memory_equal(&g.split.nodes[0].hi, &g.plain.nodes[0].hi, 12);
-    more += g.split.refs - g.split.kept;
+    assert_memory_equal(&g.cut.nodes[0].lo, &g.plain.nodes[0].lo, 12);
+    assert_memory_equal(&g.cut.nodes[0].hi, &g.plain.nodes[0].hi, 12);
+    more += g.cut.refs - g.cut.kept;
   }
   // Triangles are cut, or this tests nothing.
   assert_true(more > 500);
   arena_free(&mem);
-}
-
-// Whether some leaf that holds triangle t holds the box lo..hi.
-static bool leaf_holds(const bvh *b, uint32_t t, vec3 lo, vec3 hi) {
-  for (uint32_t i = 0; i < b->node_count; i++) {
-    const bvh_node *n = &b->nodes[i];
-    for (uint32_t k = 0; k < n->count; k++)
-      if (b->order[n->first + k] == t && box_within(lo, hi, n->lo, n->hi))
-        return true;
-  }
-  return false;
-}
-
-// Coordinate k of the point of a triangle with these weights, in double, held
-// between its corners as slab_hold does.
-static double coordinate(const vec3 p[3], const double w[3], int k) {
-  double v[3];
-  for (int i = 0; i < 3; i++)
-    v[i] = (double)(k == 0 ? p[i].x : k == 1 ? p[i].y : p[i].z);
-  double x = w[0] * v[0] + w[1] * v[1] + w[2] * v[2];
-  return fmin(fmax(x, fmin(v[0], fmin(v[1], v[2]))),
-              fmax(v[0], fmax(v[1], v[2])));
-}
-
-static void between(float *lo, float *hi, double x) {
-  float near = (float)x;
-  *lo = (double)near > x ? nextafterf(near, -INFINITY) : near;
-  *hi = (double)near < x ? nextafterf(near, INFINITY) : near;
 }
 
 // The law on which the equality rests: every point of a triangle, between
@@ -329,22 +225,16 @@ static void leaves_cover_triangles(void **unused) {
   shapes_all(all, &mem);
   uint64_t state = 3;
   for (int i = 0; i < SHAPES; i++) {
-    grove g;
-    grove_plant(&g, all[i], &mem);
-    if (g.split.kept == 0) continue;
+    cut_grove g;
+    cut_grove_plant(&g, all[i], bvh_split_build, &mem);
+    if (g.cut.kept == 0) continue;
     for (uint32_t k = 0; k < many(20000); k++) {
-      uint32_t at = (uint32_t)(shape_random(&state) * (float)g.split.refs);
-      uint32_t t = g.split.order[at < g.split.refs ? at : 0];
+      uint32_t at = (uint32_t)(shape_random(&state) * (float)g.cut.refs);
+      uint32_t t = g.cut.order[at < g.cut.refs ? at : 0];
       vec3 p[3], lo, hi;
-      for (int j = 0; j < 3; j++)
-        p[j] = g.s.positions[g.s.index[3 * (size_t)t + (size_t)j]];
-      double a = (double)shape_random(&state), c = (double)shape_random(&state);
-      if (k % 4 == 0) a = 0;
-      const double w[3] = {1 - a, a * (1 - c), a * c};
-      between(&lo.x, &hi.x, coordinate(p, w, 0));
-      between(&lo.y, &hi.y, coordinate(p, w, 1));
-      between(&lo.z, &hi.z, coordinate(p, w, 2));
-      assert_true(leaf_holds(&g.split, t, lo, hi));
+      corners_of(p, &g.s, t);
+      point_between(&lo, &hi, p, k % 4 == 0, &state);
+      assert_true(leaf_holds(&g.cut, t, lo, hi));
     }
   }
   arena_free(&mem);
@@ -360,9 +250,7 @@ static void threads_do_not_matter(void **unused) {
     const int threads[3] = {1, 2, 7};
     for (int j = 0; j < 3; j++) {
       pool *p = pool_new(&mem, threads[j]);
-      bvh of = {.positions = s[k].positions,
-                .index = s[k].index,
-                .triangle_count = s[k].triangles};
+      bvh of = mesh_of(&s[k]);
       bvh_split_build(&b[j], &of, (double)INFINITY, &mem, p);
       pool_free(p);
     }
@@ -384,20 +272,20 @@ static void threads_do_not_matter(void **unused) {
 static void cuts_only_where_it_pays(void **unused) {
   (void)unused;
   arena mem = {0};
-  grove g;
+  cut_grove g;
   shape ball = shape_sphere(&mem, 280);
-  grove_plant(&g, ball, &mem);
-  assert_int_equal(g.split.node_count, g.plain.node_count);
-  assert_memory_equal(g.split.nodes, g.plain.nodes,
+  cut_grove_plant(&g, ball, bvh_split_build, &mem);
+  assert_int_equal(g.cut.node_count, g.plain.node_count);
+  assert_memory_equal(g.cut.nodes, g.plain.nodes,
                       g.plain.node_count * sizeof(bvh_node));
-  grove_plant(&g, shape_mix(&mem, 20000), &mem);
-  assert_true(g.split.cost < 0.7 * g.plain.cost);
+  cut_grove_plant(&g, shape_mix(&mem, 20000), bvh_split_build, &mem);
+  assert_true(g.cut.cost < 0.7 * g.plain.cost);
   // However many rays: a few large triangles among many, but not needles of
   // which there is no room to cut more than a third.
   bvh tree;
   bvh_split_build(&tree, &g.plain, 1e15, &mem, NULL);
-  assert_int_equal(tree.node_count, g.split.node_count);
-  grove_plant(&g, shape_needles(&mem, 3000, 1e-3f), &mem);
+  assert_int_equal(tree.node_count, g.cut.node_count);
+  cut_grove_plant(&g, shape_needles(&mem, 3000, 1e-3f), bvh_split_build, &mem);
   bvh_split_build(&tree, &g.plain, 1e15, &mem, NULL);
   assert_int_equal(tree.refs, tree.kept);
   assert_memory_equal(tree.nodes, g.plain.nodes,
@@ -430,7 +318,7 @@ static void clips_are_conservative(void **unused) {
     w[2] = 1 - w[0] - w[1];
     double q[3];
     for (int k = 0; k < 3; k++)
-      q[k] = coordinate(p, w, k);
+      q[k] = weighted(p, w, k);
     if (q[axis] < (double)s.lo || q[axis] > (double)s.hi) continue;
     bvh_outline t = bvh_outline_of(p);
     assert_true(bvh_split_clip(&out, &own, &t, s));
@@ -448,13 +336,13 @@ static void clips_are_conservative(void **unused) {
 static void coincident_triangles(void **unused) {
   (void)unused;
   arena mem = {0};
-  grove g;
-  grove_plant(&g, shape_same(&mem, many(100000)), &mem);
-  check_tree(&g.split);
+  cut_grove g;
+  cut_grove_plant(&g, shape_same(&mem, many(100000)), bvh_split_build, &mem);
+  check_tree(&g.cut);
   uint64_t state = 3;
   for (int i = 0; i < 30; i++) {
-    ray r = ray_near(&g, &state);
-    assert_true(all_agree(&g, &r));
+    ray r = ray_near(&g, i, &state);
+    assert_true(cut_grove_agrees(&g, &r));
   }
   arena_free(&mem);
 }
