@@ -73,14 +73,17 @@ static bool doubling_pixel(const void *self, size_t i, two_means_pixel *out) {
   return true;
 }
 
-// The rate r at which variance falls by doubling, if it always was the same:
-// a difference of r^(k-1) (1 - r) of the variance of one sample is left after k
-// doublings.  Limits: r = 1/2 is chance, 1/8 is as smooth as it gets.
-static double rate_of(double left, int k) {
-  double low = 0.125, high = 0.5;
+// The rate r at which variance falls by doubling, if it always was the same,
+// after n samples.  V is the variance of one: of the mean of n, n^log2(r) V is
+// left, and so the samples differ by (1 - n^log2(r)) V n / (n - 1) only.  Of
+// that, `left` is what the last of k doublings took, r^(k-1) (1 - r) V. Limits:
+// r = 1/2 is chance, 1/8 is as smooth as it gets; two halves of one sample each
+// tell nothing of r.
+static double rate_of(double left, int k, double n) {
+  double low = k > 1 ? 0.125 : 0.5, high = 0.5;
   for (int i = 0; i < 40; i++) {
-    double r = (low + high) / 2;
-    if (pow(r, k - 1) * (1 - r) > left)
+    double r = (low + high) / 2, differ = (1 - pow(n, log2(r))) * n / (n - 1);
+    if (pow(r, k - 1) * (1 - r) > left * differ)
       high = r;
     else
       low = r;
@@ -98,7 +101,7 @@ static double doubling_error(void *self, pool *threads) {
   int k = 0;
   while (1u << (k + 1) <= m)
     k++;
-  double r = rate_of(s.square / s.other, k);
+  double r = rate_of(s.square / s.other, k, n);
   // E[((a - b) / 2)^2] = V(k-1) - V(k) = V(k) (1 - r) / r, and from there on to
   // n samples.
   double at_power = s.square * r / (1 - r);

@@ -204,11 +204,12 @@ static void limits_hold(void **state) {
 }
 
 // The error by doubling.  By chance alone it is the true one within 10 %; of
-// even points, too, where the sample variance is off by more than half.
+// sixteen even points and more within 20 %, where the sample variance is off by
+// more than half.  Of two it says too much and not too little.
 static void doubling_sees_evenness(void **state) {
   (void)state;
   for (int k = 0; k < 2; k++)
-    for (uint32_t n = 16; n <= 256; n *= 2) {
+    for (uint32_t n = 2; n <= 256; n *= 2) {
       arena mem = {0};
       doubling *d = doubling_new(&mem, WIDTH, HEIGHT);
       render_guide g = doubling_guide(d);
@@ -232,8 +233,9 @@ static void doubling_sees_evenness(void **state) {
       double spread = film_error(&f);
       print_message("# %s %u: true %.4f, doubling %.4f, variance %.4f\n",
                     k ? "random" : "Sobol'", n, is, said, spread);
-      assert_true(fabs(said / is - 1) < (k ? 0.1 : 0.2));
-      if (k == 0) assert_true(spread / is > 1.5);
+      if (n >= (k ? 4 : 16)) assert_true(fabs(said / is - 1) < (k ? 0.1 : 0.2));
+      if (k == 0 && n == 2) assert_true(said > is);
+      if (k == 0 && n >= 16) assert_true(spread / is > 1.5);
       arena_free(&mem);
     }
 }
