@@ -24,6 +24,10 @@ enum {
   USES = 8       // what sampler_8 gives
 };
 
+_Static_assert((int)SAMPLER_TURN_FROM == 2 + (int)USE_DIRECTION &&
+                   (int)SAMPLER_TURN_EACH == (int)USES,
+               "directions turn");
+
 // A lane a vertex.  The numbers of all; the rest of those that are matt, which
 // have one lobe and no bumps.
 typedef struct path_ready {

@@ -72,12 +72,18 @@ static size_t in_order(size_t k, size_t size) {
   return size == 2 * BLOCK ? two_order(k) : square_order(k);
 }
 
+// Where all light comes from an even sky, all that counts is where paths go.
+static sampler_kind kind_of(const wave *w) {
+  sampler_kind kind = w->by->sampler;
+  bool even = w->even && !light_set_any(w->by->lights);
+  return even && kind == SAMPLER_SOBOL ? SAMPLER_TURNED : kind;
+}
+
 static void begin_path(wave *w, const path_start *starts, size_t i) {
   const path_start *s = &starts[i];
   w->paths[i] = (path){.throughput = vec3_all(1), .scale = 1, .segment = 1};
   if (s->pixel == GROUP_NO_PIXEL) return;
-  w->paths[i].numbers =
-      sampler_of(w->by->sampler, w->by->seed, s->pixel, s->sample);
+  w->paths[i].numbers = sampler_of(w->kind, w->by->seed, s->pixel, s->sample);
   w->alive[w->count] = (uint32_t)i;
   w->rays[w->count++] = s->ray;
 }
@@ -85,6 +91,7 @@ static void begin_path(wave *w, const path_start *starts, size_t i) {
 void wave_begin(wave *w, const path_start *starts, size_t n) {
   const path_tracer *by = w->by;
   size_t done = 0, some;
+  w->kind = kind_of(w);
   w->count = 0;
   w->steps = 0;
   while (w->shares == NULL && (some = together(starts + done, n - done)) > 0) {

@@ -62,6 +62,7 @@ typedef struct wave {
   bool looks;           // whether by->sky also looks
   bool even;            // a constant sky, for which no light is asked
   vec3 sky;
+  sampler_kind kind;
   const path_plain *plain;  // by material, or NULL
   path *paths;
   uint32_t *alive;

@@ -40,8 +40,9 @@ static inline void ready_lights(ready_work *w, const light_set *l) {
 // sampler_8 of all.
 static inline void ready_draw(ready_work *w, const ready_job *j, size_t from,
                               int n) {
-  if (j->numbers[from].kind == SAMPLER_SOBOL) {
-    ready_numbers(w, j->dimension);
+  sampler_kind kind = j->numbers[from].kind;
+  if (kind != SAMPLER_RANDOM) {
+    ready_numbers(w, kind, j->dimension);
     return;
   }
   for (int i = 0; i < n; i++) {

@@ -22,6 +22,12 @@ SIMD void sixteen_scramble(sixteen *digits, const sixteen *seed) {
   *digits = d;
 }
 
+SIMD void sixteen_turn(sixteen *digits, const sixteen *seed) {
+  sixteen d = *digits, rest = d & ~3u, same = rest ^ (rest - 1);
+  sixteen_scramble(digits, seed);
+  *digits = (*digits & ~same) | ((d ^ *seed) & same);
+}
+
 SIMD void sixteen_reverse(sixteen *v) {
   sixteen x = *v;
   x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
@@ -35,6 +41,7 @@ SIMD void sixteen_reverse(sixteen *v) {
 typedef struct sixteen_keys {
   sixteen lo, hi, index;
   uint32_t bits;  // all that any index has
+  sampler_kind kind;
 } sixteen_keys;
 
 SIMD void sixteen_seed(const sixteen_keys *k, uint32_t dimension,
@@ -72,7 +79,10 @@ SIMD void sixteen_number(const sixteen_keys *k, uint32_t dimension,
     index >>= 1;
   }
   sixteen_seed(k, dimension, &seed);
-  sixteen_scramble(&digits, &seed);
+  if (sampler_turns(k->kind, dimension))
+    sixteen_turn(&digits, &seed);
+  else
+    sixteen_scramble(&digits, &seed);
   sixteen_reverse(&digits);
   digits >>= 8;
   int32_t bits[LANES];
@@ -81,8 +91,9 @@ SIMD void sixteen_number(const sixteen_keys *k, uint32_t dimension,
     out[i] = (float)bits[i] * 0x1p-24f;
 }
 
-static inline void ready_numbers(ready_work *w, uint32_t dimension) {
-  sixteen_keys k = {.bits = 0};
+static inline void ready_numbers(ready_work *w, sampler_kind kind,
+                                 uint32_t dimension) {
+  sixteen_keys k = {.kind = kind};
   memcpy(&k.lo, w->key_lo, sizeof k.lo);
   memcpy(&k.hi, w->key_hi, sizeof k.hi);
   memcpy(&k.index, w->index, sizeof k.index);

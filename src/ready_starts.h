@@ -18,6 +18,7 @@ static inline void starts_keys(sixteen_keys *k, uint64_t seed,
   memcpy(&k->hi, hi, sizeof hi);
   k->index = row->sample + (sixteen){0};
   k->bits = row->sample;
+  k->kind = SAMPLER_SOBOL;
 }
 
 // Where in its pixel each lies, sampler_2 of all, and camera_ray.

@@ -83,8 +83,18 @@ static eight digits_of(const sampler *s, uint32_t dimension) {
   return digits;
 }
 
-static void numbers_of(four digits, four seed, float *out) {
-  four bits = reverse(scramble(digits, seed)) >> 8;
+// sobol_turn.
+static four turn(four digits, four seed) {
+  four rest = digits & ~3u, same = rest ^ (rest - 1);
+  return (scramble(digits, seed) & ~same) | ((digits ^ seed) & same);
+}
+
+static void numbers_of(sampler_kind kind, four dimension, four digits,
+                       four seed, float *out) {
+  four turns = (four)((dimension - SAMPLER_TURN_FROM) % SAMPLER_TURN_EACH < 2);
+  if (kind != SAMPLER_TURNED) turns = (four){0};
+  four bits = (scramble(digits, seed) & ~turns) | (turn(digits, seed) & turns);
+  bits = reverse(bits) >> 8;
   float_four numbers =
       __builtin_convertvector((signed_four)bits, float_four) * 0x1p-24f;
   memcpy(out, &numbers, sizeof numbers);
@@ -93,8 +103,8 @@ static void numbers_of(four digits, four seed, float *out) {
 static void sobol_8(const sampler *s, uint32_t dimension, float out[8]) {
   eight digits = digits_of(s, dimension);
   four d = {dimension, dimension + 1, dimension + 2, dimension + 3};
-  numbers_of(digits.lo, seeds_of(s->key, d), out);
-  numbers_of(digits.hi, seeds_of(s->key, d + 4), out + 4);
+  numbers_of(s->kind, d, digits.lo, seeds_of(s->key, d), out);
+  numbers_of(s->kind, d + 4, digits.hi, seeds_of(s->key, d + 4), out + 4);
 }
 
 // SSE 4.1 multiplies four integers at once, x86-64 alone cannot.
@@ -118,7 +128,7 @@ static void sobol_8_best(const sampler *s, uint32_t dimension, float out[8]) {
 }
 
 void sampler_8(const sampler *s, uint32_t dimension, float out[8]) {
-  if (s->kind == SAMPLER_SOBOL) {
+  if (s->kind != SAMPLER_RANDOM) {
     sobol_8_best(s, dimension, out);
     return;
   }

@@ -9,7 +9,17 @@
 #include "sobol.h"
 #include "vec.h"
 
-typedef enum sampler_kind { SAMPLER_SOBOL, SAMPLER_RANDOM } sampler_kind;
+#include <stdbool.h>
+
+// Turned: of every eight dimensions from the third on, the first two are those
+// of a direction, and the first four directions are a quarter turn apart.
+typedef enum sampler_kind {
+  SAMPLER_SOBOL,
+  SAMPLER_RANDOM,
+  SAMPLER_TURNED
+} sampler_kind;
+
+enum { SAMPLER_TURN_FROM = 2, SAMPLER_TURN_EACH = 8 };
 
 // The first SAMPLER_JOINT dimensions are even jointly, the later ones in
 // blocks of SAMPLER_BLOCK that are independent of each other.  Pairs that start
@@ -54,24 +64,32 @@ static inline uint32_t sampler_shuffle(uint32_t index, uint32_t seed) {
   return sobol_reverse(digits ^ sobol_scramble(0, seed));
 }
 
+static inline bool sampler_turns(sampler_kind kind, uint32_t dimension) {
+  return kind == SAMPLER_TURNED &&
+         (dimension - SAMPLER_TURN_FROM) % SAMPLER_TURN_EACH < 2;
+}
+
 // The number of one dimension of one sample, uniform in [0, 1): a multiple of
 // 2^-24.
-static inline float sampler_sobol(uint64_t key, uint32_t index,
-                                  uint32_t dimension) {
-  uint32_t column = dimension;
+static inline float sampler_even(const sampler *s, uint32_t dimension) {
+  uint64_t key = s->key;
+  uint32_t index = s->index, column = dimension;
   if (dimension >= SAMPLER_JOINT) {
     uint32_t block = (dimension - SAMPLER_JOINT) / SAMPLER_BLOCK;
     index = sampler_shuffle(index, sampler_seed(key, ~block));
     column = (dimension - SAMPLER_JOINT) % SAMPLER_BLOCK;
   }
   uint32_t seed = sampler_seed(key, dimension);
-  return sobol_number(sobol_scramble(sobol_digits(index, column), seed));
+  uint32_t digits = sobol_digits(index, column);
+  bool turns = sampler_turns(s->kind, dimension);
+  return sobol_number(turns ? sobol_turn(digits, seed)
+                            : sobol_scramble(digits, seed));
 }
 
 // The next dimension.
 static inline float sampler_1(sampler *s) {
   uint32_t d = s->dimension++;
-  if (s->kind == SAMPLER_SOBOL) return sampler_sobol(s->key, s->index, d);
+  if (s->kind != SAMPLER_RANDOM) return sampler_even(s, d);
   rng r = {s->key, d};
   return rng_next(&r);
 }

@@ -39,6 +39,14 @@ static inline uint32_t sobol_scramble(uint32_t digits, uint32_t seed) {
   return digits;
 }
 
+// The same, but that points 0 to 3 stay half or a quarter apart, as they are
+// unscrambled: the first two digits are flipped whatever they are, and those
+// behind them up to the first 1 as they are behind any other two.
+static inline uint32_t sobol_turn(uint32_t digits, uint32_t seed) {
+  uint32_t rest = digits & ~3u, same = rest ^ (rest - 1);
+  return (sobol_scramble(digits, seed) & ~same) | ((digits ^ seed) & same);
+}
+
 // The 32 bits in reverse.
 static inline uint32_t sobol_reverse(uint32_t x) {
   x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);

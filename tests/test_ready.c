@@ -207,7 +207,10 @@ static void ready_is_alone(void **unused) {
       if (by == NULL) continue;
       levels++;
       check_level(w, k == 3 ? NULL : &lights, plain, by,
-                  k == 2 ? SAMPLER_RANDOM : SAMPLER_SOBOL, &c);
+                  k == 2   ? SAMPLER_RANDOM
+                  : k == 3 ? SAMPLER_TURNED
+                           : SAMPLER_SOBOL,
+                  &c);
     }
     print_message("# %d levels: %d matt, %d of them plain, %d lit, of %d\n",
                   levels, c.matt, c.plain, c.lit, c.lambert);
