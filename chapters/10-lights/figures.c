@@ -57,6 +57,46 @@ static void draw_points(output *o) {
   publish(o->folder, "points", all);
 }
 
+// The disc onto which the directions of a matt surface fall, and the first four
+// of a pixel, the first two in red.
+static image draw_directions(output *o, sampler_kind kind, uint64_t pixel) {
+  enum { SIDE = 112, RADIUS = 50, EDGES = 90 };
+  image im = paper(&o->mem, SIDE, SIDE);
+  vec2 last = {SIDE / 2 + RADIUS, SIDE / 2};
+  for (int i = 1; i <= EDGES; i++) {
+    float turn = 6.2831853f * (float)i / EDGES;
+    vec2 p = {SIDE / 2 + RADIUS * cosf(turn), SIDE / 2 + RADIUS * sinf(turn)};
+    draw_thin_line(im, last, p, vec3_all(0.6f));
+    last = p;
+  }
+  for (uint32_t i = 4; i-- > 0;) {
+    sampler s = sampler_of(kind, 1, pixel, i);
+    sampler_at(&s, 2);
+    vec2 u = sampler_2(&s);
+    float turn = 6.2831853f * u.x, r = RADIUS * sqrtf(u.y);
+    vec2 p = {SIDE / 2 + r * cosf(turn), SIDE / 2 + r * sinf(turn)};
+    vec2 middle = {SIDE / 2, SIDE / 2};
+    draw_thin_line(im, middle, p, i < 2 ? RED : GREY);
+    draw_dot(&im, p.x, p.y, 5, i < 2 ? RED : GREY);
+  }
+  return im;
+}
+
+// Those of four pixels: even ones, and turned ones.
+static void draw_turns(output *o) {
+  image rows[2];
+  for (int k = 0; k < 2; k++) {
+    image parts[4];
+    for (uint64_t i = 0; i < 4; i++)
+      parts[i] = draw_directions(o, k ? SAMPLER_TURNED : SAMPLER_SOBOL, 3 + i);
+    rows[k] = row_of(&o->mem, parts, 4);
+  }
+  image all = paper(&o->mem, rows[0].width, 2 * rows[0].height);
+  paste(all, rows[0], 0, 0);
+  paste(all, rows[1], 0, rows[0].height);
+  publish(o->folder, "turns", all);
+}
+
 // One of the integrals of the plot: a pixel with an edge through it, or the
 // same times a lamp.
 typedef struct integral {
@@ -771,6 +811,7 @@ int main(int argc, char **argv) {
   output o = {.folder = argv[1]};
   o.threads = pool_new(&o.mem, pool_default_threads());
   draw_points(&o);
+  draw_turns(&o);
   draw_slopes(&o);
   draw_sky(&o);
   draw_weights(&o);
