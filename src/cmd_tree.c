@@ -88,6 +88,14 @@ static bool find_patches(cmd_tree *t, const options *o, const mesh *m,
   return true;
 }
 
+// Where patches were not looked for, or do not pay, those of a few.
+static void find_large(cmd_tree *t, const options *o, const mesh *m,
+                       arena *mem) {
+  t->patches = t->wide.patch != NULL;
+  if (t->paths && !t->patches && !o->value[OPT_NO_SKIP].given)
+    wide_patches_large(&t->wide, (uint32_t)m->triangle_count, mem);
+}
+
 void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
                     pool *threads) {
   long long word = o->value[OPT_BVH].words;
@@ -97,6 +105,7 @@ void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
   *out = (cmd_tree){.rays = out->rays, .paths = out->paths, .name = out->name};
   if (load_wide(out, &cache, word, m, mem, threads)) {
     if (find_patches(out, o, m, mem, threads)) save_wide(out, &cache, threads);
+    find_large(out, o, m, mem);
     return;
   }
   build_binary(out, word, m, wide ? &scratch : mem, threads);
@@ -115,6 +124,7 @@ void cmd_tree_build(cmd_tree *out, const options *o, const mesh *m, arena *mem,
   out->binary.order = NULL;
   arena_free(&scratch);
   save_wide(out, &cache, threads);
+  find_large(out, o, m, mem);
 }
 
 size_t cmd_tree_bytes(const cmd_tree *t) {
@@ -132,7 +142,7 @@ void cmd_tree_json(json *j, const cmd_tree *t) {
   json_number(j, "cost", t->binary.cost);
   json_count(j, "parts", t->binary.parts);
   json_number(j, "rays_expected", t->rays);
-  json_flag(j, "patches", t->wide.patch != NULL);
+  json_flag(j, "patches", t->patches);
   int depth = wide ? t->wide.depth : t->binary.depth;
   json_count(j, "depth", (unsigned long long)depth);
   json_count(j, "dropped", t->binary.dropped);

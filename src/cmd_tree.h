@@ -20,6 +20,7 @@ typedef struct cmd_tree {
   const char *name;     // of the mesh, for the cache; NULL: do without
   bool paths;           // they leave surfaces, and say which
   bool from_cache;
+  bool patches;  // were found for all triangles
 } cmd_tree;
 
 // How many rays a picture takes, roughly; spp 0: nobody knows.

@@ -6,6 +6,14 @@
 #include "wide.h"
 
 #include <math.h>
+#include <string.h>
+
+// Levels above their leaves from which on patches pay.
+#define FAR 1.25f
+
+// A triangle is large that has this share of half the surface of the tree's
+// box.
+#define LARGE (1.0f / 256)
 
 // Nodes that a thread takes at a time, and of how many of these one is looked
 // at first.
@@ -45,9 +53,9 @@ static void search_chunk(void *context, size_t item, int worker) {
   (void)worker;
 }
 
-// Search one chunk of `every`; whether patches are, in the mean, this far above
-// their leaves.
-static bool search(patch_search *s, uint32_t every, float far, pool *threads) {
+// Search one chunk of `every`; how far patches are above their leaves, in the
+// mean.
+static float search(patch_search *s, uint32_t every, pool *threads) {
   uint32_t levels = 0, triangles = 0, step = CHUNK * every;
   size_t chunks = (s->t->node_count + step - 1) / step;
   s->every = every;
@@ -56,7 +64,7 @@ static bool search(patch_search *s, uint32_t every, float far, pool *threads) {
     levels += s->levels[i];
     triangles += s->triangles[i];
   }
-  return (float)levels >= far * (float)triangles;
+  return (float)levels / float_max((float)triangles, 1);
 }
 
 // A leaf may be the child of many: it is looked at as one of them.
@@ -107,9 +115,75 @@ void wide_patches_find(wide_tree *t, uint32_t triangles, arena *mem,
     reach = float_max(reach, float_max(fabsf(t->lo[k]), fabsf(t->hi[k])));
   s.unsure = 0x1p-19f * reach;
   find_places(&s);
-  if (search(&s, SAMPLE, 1.5f, threads) && search(&s, 1, 2, threads)) {
+  if (search(&s, SAMPLE, threads) >= FAR) {
+    search(&s, 1, threads);
     t->patch_count = triangles;
     t->patch = order_patches(&s, mem);
+  }
+  arena_free(&scratch);
+}
+
+// Half the surface of a box of these sides.
+static float half_surface(const float side[3]) {
+  return side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
+}
+
+// The same of child k of a node.
+static float child_surface(const wide_node *n, uint32_t k) {
+  float side[3];
+  for (int i = 0; i < 3; i++)
+    side[i] = n->scale[i] * (float)(n->plane[i][1][k] - n->plane[i][0][k]);
+  return half_surface(side);
+}
+
+static vec3 corner_of(const uint32_t *leaf, uint32_t n, uint32_t k,
+                      uint32_t i) {
+  vec3 p;
+  memcpy(&p.x, &leaf[(3 * i + 0) * n + k], sizeof p.x);
+  memcpy(&p.y, &leaf[(3 * i + 1) * n + k], sizeof p.y);
+  memcpy(&p.z, &leaf[(3 * i + 2) * n + k], sizeof p.z);
+  return p;
+}
+
+// The patches of the large triangles of a leaf: the leaf, or none.
+static void patch_large(wide_tree *t, uint32_t child, float area,
+                        const wide_level *level) {
+  uint32_t n = wide_leaf_count(child), patch[WIDE];
+  const uint32_t *leaf = t->triangles + 10 * (size_t)wide_leaf_first(child);
+  const wide_leaf_place alone = {.leaf = child};
+  bool looked = false;
+  for (uint32_t k = 0; k < n; k++) {
+    vec3 a = corner_of(leaf, n, k, 0);
+    vec3 ab = vec3_sub(corner_of(leaf, n, k, 1), a);
+    vec3 ac = vec3_sub(corner_of(leaf, n, k, 2), a);
+    if (!(vec3_length(vec3_cross(ab, ac)) >= 2 * area)) continue;
+    if (!looked) level->patches(t, &alone, patch);
+    looked = true;
+    t->patch[leaf[9 * n + k]] = patch[k];
+  }
+}
+
+void wide_patches_large(wide_tree *t, uint32_t triangles, arena *mem) {
+  float side[3];
+  if (t->nodes == NULL) return;
+  for (int i = 0; i < 3; i++)
+    side[i] = t->hi[i] - t->lo[i];
+  float area = LARGE * half_surface(side);
+  arena scratch = {0};
+  uint32_t *waiting = ARENA_NEW(&scratch, uint32_t, t->node_count), count = 1;
+  t->patch_count = triangles;
+  t->patch = ARENA_NEW(mem, uint32_t, triangles);
+  waiting[0] = 0;
+  while (count > 0) {
+    const wide_node *n = &t->nodes[waiting[--count]];
+    for (uint32_t k = 0; k < WIDE; k++) {
+      if ((n->valid >> k & 1) == 0 || !(child_surface(n, k) >= 2 * area))
+        continue;
+      if (n->child[k] & WIDE_LEAF_BIT)
+        patch_large(t, n->child[k], area, wide_level_best());
+      else
+        waiting[count++] = n->child[k];
+    }
   }
   arena_free(&scratch);
 }

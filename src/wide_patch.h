@@ -19,4 +19,8 @@ enum { WIDE_PATCH_RAYS = 64 };
 void wide_patches_find(wide_tree *t, uint32_t triangles, arena *mem,
                        pool *threads);
 
+// Patches of large triangles only, each the leaf that it is in: few, and soon
+// found, but most rays may leave them.
+void wide_patches_large(wide_tree *t, uint32_t triangles, arena *mem);
+
 #endif

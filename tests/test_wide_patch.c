@@ -251,6 +251,43 @@ static void patches_are_passed_over(void **state) {
   arena_free(&mem);
 }
 
+// Of few triangles, the large ones, the leaf is found at once; it lies below
+// them, and no hit changes.
+static void large_ones_have_theirs(void **state) {
+  (void)state;
+  for (int cut = 0; cut < 2; cut++) {
+    arena mem = {0};
+    patched p;
+    patch(&p, balls_on_a_floor(true, (vec3){0, 0, 0}, &mem), cut, 1, &mem);
+    wide_patches_large(&p.wide, p.s.triangles, &mem);
+    uint32_t many = 0, floor = p.s.triangles - 2;
+    for (uint32_t t = 0; t < p.s.triangles; t++) {
+      if (p.wide.patch[t] == 0) continue;
+      contents c = {.below = true};
+      look(&p, t, p.wide.patch[t], &c);
+      assert_true(c.own && c.below && c.triangles <= WIDE);
+      many++;
+    }
+    assert_true(many >= 2 && many < p.s.triangles / 1000);
+    assert_true(p.wide.patch[floor] != 0 && p.wide.patch[floor + 1] != 0);
+    rng r = rng_of(12, 5, 0);
+    ray rays[BATCH];
+    uint32_t left[BATCH];
+    hit with[BATCH], without[BATCH];
+    for (int i = 0; i < 20; i++) {
+      for (int j = 0; j < BATCH; j++) {
+        vec3 at = {18 * rng_next(&r) - 9, 18 * rng_next(&r) - 9, 0};
+        rays[j] = ray_from(at, (vec3){0.4f, at.x / 9, 0.1f + rng_next(&r)});
+        left[j] = floor + (at.y > at.x);
+      }
+      wide_tracer(&p.wide).closest_many(&p.wide, rays, left, with, BATCH);
+      wide_tracer(&p.wide).closest_many(&p.wide, rays, NULL, without, BATCH);
+      assert_memory_equal(with, without, sizeof with);
+    }
+    arena_free(&mem);
+  }
+}
+
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(patches_lie_below),
@@ -258,6 +295,7 @@ int main(void) {
       cmocka_unit_test(threads_do_not_matter),
       cmocka_unit_test(patches_change_no_hit),
       cmocka_unit_test(patches_are_passed_over),
+      cmocka_unit_test(large_ones_have_theirs),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,7 +11,7 @@
 // a ray, closest and any, with whatever else paths do in between.  The fastest
 // of ROUNDS (environment, default 3) renders of SPP (2) samples a pixel and up
 // to 16 segments; SIMD (default: all) is a list of levels; with PATCHES=0 rays
-// look at what they leave.
+// look at what they leave, but with LARGE=1 for large triangles.
 
 #include "aim_learn.h"
 #include "ready.h"
@@ -96,6 +96,9 @@ static bool set_load(set *s, const char *path, error *err) {
   if (setting("PATCHES", 1) != 0)
     wide_patches_find(&s->tree, (uint32_t)s->scene.mesh.triangle_count, &s->mem,
                       NULL);
+  if (setting("LARGE", 0) != 0 && s->tree.patch == NULL)
+    wide_patches_large(&s->tree, (uint32_t)s->scene.mesh.triangle_count,
+                       &s->mem);
   s->world = (path_world){.scene = &s->scene, .lights = true, .max_depth = 16};
   s->world.dfg = matter_table(&s->scene, PBR_GGX, &s->mem, NULL);
   s->world.tracer = wide_tracer(&s->tree);
