@@ -309,7 +309,7 @@ static void turned_directions_face_each_other(void **state) {
       assert_int_equal(hidden(SAMPLER_TURNED, p, dimension, 2, wall), 1);
       assert_int_equal(hidden(SAMPLER_TURNED, p, dimension, 4, wall), 2);
     }
-  static const double MOST[5] = {1.04, 0.8, 0.8, 1.04, 1.04};
+  static const double SHARE_OF[5] = {1.04, 0.8, 0.8, 1.04, 1.04};
   for (uint32_t d = 2; d < 11; d += 8)
     for (int k = 0; k < 5; k++) {
       double mean, other, even = wall_error(SAMPLER_SOBOL, d, 1u << k, &other);
@@ -317,7 +317,7 @@ static void turned_directions_face_each_other(void **state) {
       print_message("# dimension %u, %2u directions: %.5f, turned %.5f\n", d,
                     1u << k, even, turned);
       assert_true(fabs(mean) < 4 && fabs(other) < 4);
-      if (shortened(50) == 50) assert_true(turned < MOST[k] * even);
+      if (shortened(50) == 50) assert_true(turned < SHARE_OF[k] * even);
     }
 }
 
