@@ -1,6 +1,6 @@
 #!/bin/sh
-# The wide tree's kernel compiles for a processor without AVX, where there is a
-# cross compiler.
+# The wide tree's kernel and builder compile for a processor without AVX, where
+# there is a cross compiler.
 echo 1..1
 cross=aarch64-linux-gnu-gcc
 if ! command -v $cross >/dev/null; then
@@ -8,7 +8,7 @@ if ! command -v $cross >/dev/null; then
   exit 0
 fi
 bad=
-for file in src/wide*.c src/slab.c src/triangle.c src/bvh.c; do
+for file in src/wide*.c src/build*.c src/simd_runs.c src/slab.c src/triangle.c src/bvh.c; do
   $cross -std=c11 -D_POSIX_C_SOURCE=200809L -Wall -Wextra -Wconversion -Werror -O2 \
     -ffp-contract=off -iquote src -c "$file" -o build/arm.o 2>build/arm.log ||
     { bad=1; sed 's/^/# /' build/arm.log; }
