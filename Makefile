@@ -52,7 +52,7 @@ CHAPTER_8 := $(CHAPTER_7) surface surface_ray surface_normal
 CHAPTER_9 := $(CHAPTER_8) rng bsdf matter path_world vertex roulette path_naive film shard tally first_hit render_guide render_sums \
              render_keep render
 CHAPTER_10 := $(CHAPTER_9) tracer sobol sampler pick light_env light_triangle \
-              light_bound light_tree light_tree_build light_part light_sky light_memory \
+              light_bound light_tree light_tree_build light_part light_sky light_lore light_memory \
               light_emission light lanes path_plain path_ready path_sky aim path_aim path_log path_group path_share path_tracer path_wave path path_learn share_learn \
               aim_photon aim_build aim_learn
 CHAPTER_11 := $(CHAPTER_10) lean raster_lean

@@ -7,16 +7,9 @@
 enum { GRID = LIGHT_GRID, SIDES = LIGHT_SIDES, UNITS = LIGHT_UNITS };
 enum { KEYS = GRID * GRID * GRID * SIDES };
 
-// So many cells, cubed, are neighbours, who know about the same.
-enum { NEAR = 3, SOME = GRID / NEAR, REGIONS = SOME * SOME * SOME * SIDES };
-
 // The share of questions that goes to all parts by their power: memory is not
 // certain.
 #define DOUBT 0.1f
-
-// A cell adds so many records of its region to its own, and a region as many of
-// the whole scene.
-#define SHARED 2.0f
 
 // The least probability that any light is asked.
 #define LEAST_ASKED 0.08f
@@ -30,15 +23,11 @@ enum { NEAR = 3, SOME = GRID / NEAR, REGIONS = SOME * SOME * SOME * SIDES };
 // What surfaces around send back of the usual light.
 #define AROUND 0.5
 
-// The least quotient of the densities of scattered rays and of a question, the
-// least weight of a question, and the least share of scattered rays that meet
-// surfaces.
-#define LEAST_SCATTERED 0.01
-#define LEAST_WEIGHT 1e-6
+// The least share of scattered rays that meet surfaces.
 #define LEAST_HIDDEN 0.01
 
-// Where there are more cells than numbers for them, the rest learns nothing.
-enum { MOST_CELLS = 1 << 16 };
+// So many rows are one item of work.
+enum { ROWS = 64 };
 
 static uint32_t step_of(float x) {
   return x > 0 ? (uint32_t)float_min(x, GRID - 1) : 0;
@@ -82,13 +71,7 @@ bool light_memory_new(light_memory *out, const float *power, uint32_t count,
   return true;
 }
 
-// What is known of a part in a cell: sums over `asked` questions, of what they
-// found, of its squares, and of those over the density of scattered rays.
-typedef struct lore {
-  double asked, finds, squares, alone;
-} lore;
-
-// What that means: the irradiance; the mean square of a find; and the
+// What lore of a part means: the irradiance; the mean square of a find; and the
 // probability that a scattered ray goes there, in terms of that of a question.
 typedef struct view {
   double mean, square, scattered;
@@ -101,48 +84,33 @@ typedef struct outlook {
   double light, around, hidden;
 } outlook;
 
-// Learning: lore by cell and part, the first cell for all; the same for
-// regions of neighbours.
+// Noise times time, with memory and without.
+typedef struct bill {
+  double with, without;
+} bill;
+
+// Learning.
 typedef struct school {
   light_memory *m;
   double share[LIGHT_PARTS_MOST];  // of the power
   double usual_share[LIGHT_PARTS_MOST];
-  lore *of, *region;
-  uint32_t *key_of, *visits;  // by cell
-  uint32_t cells, parts;
+  light_lore lore;
+  bill *bills;  // of cells, by row
+  uint32_t parts;
   double usual;  // light, in all of the scene
 } school;
 
-static uint32_t region_of(uint32_t key) {
-  uint32_t side = key % SIDES, x = key / SIDES % GRID;
-  uint32_t y = key / SIDES / GRID % GRID, z = key / SIDES / GRID / GRID;
-  return ((z / NEAR * SOME + y / NEAR) * SOME + x / NEAR) * SIDES + side;
-}
-
-// What a cell knows, with so much of what others know.
-static lore refine(const lore *own, lore others) {
-  double k = others.asked > 0 ? (double)SHARED / others.asked : 0;
-  return (lore){own->asked + k * others.asked, own->finds + k * others.finds,
-                own->squares + k * others.squares,
-                own->alone + k * others.alone};
-}
-
 // Exact where only questions go to the part, and where only scattered rays do.
-static view view_of(const school *s, uint32_t cell, uint32_t part) {
-  lore l = s->of[part];
-  if (cell > 0) {
-    uint32_t region = region_of(s->key_of[cell]);
-    l = refine(&s->region[region * s->parts + part], l);
-    l = refine(&s->of[(size_t)cell * s->parts + part], l);
-  }
-  if (!(l.squares > 0)) return (view){0, 0, 0};
-  return (view){l.finds / l.asked, l.squares / l.asked, l.squares / l.alone};
+static view view_of(const lore *l) {
+  if (!(l->squares > 0)) return (view){0, 0, 0};
+  return (view){l->finds / l->asked, l->squares / l->asked,
+                l->squares / l->alone};
 }
 
-static outlook outlook_of(const school *s, uint32_t cell) {
+static outlook outlook_of(const school *s, uint32_t row) {
   outlook o = {.light = (double)s->m->rest, .hidden = 1};
   for (uint32_t i = 0; i < s->parts; i++) {
-    view v = o.of[i] = view_of(s, cell, i);
+    view v = o.of[i] = view_of(&light_lore_row(&s->lore, row)[i]);
     o.light += v.mean;
     if (v.square > 0) o.hidden -= v.scattered * v.mean * v.mean / v.square;
   }
@@ -223,13 +191,11 @@ static double deal(const outlook *o, uint32_t n, double *p) {
   return asked;
 }
 
-static light_cell conclude(school *s, uint32_t cell) {
+static light_cell cell_of_outlook(const school *s, const outlook *o) {
   double p[LIGHT_PARTS_MOST];
   float weights[LIGHT_PARTS_MOST];
-  outlook o = outlook_of(s, cell);
-  if (cell == 0) s->usual = o.light;
   memcpy(p, s->share, sizeof p);
-  double asked = deal(&o, s->parts, p), sure = 1 - (double)DOUBT;
+  double asked = deal(o, s->parts, p), sure = 1 - (double)DOUBT;
   double doubt = fmax(asked, (double)LEAST_ASKED) - sure * asked;
   for (uint32_t i = 0; i < s->parts; i++)
     weights[i] = (float)(sure * p[i] + doubt * s->usual_share[i]);
@@ -241,45 +207,40 @@ static float share_of(const light_cell *c, uint32_t part) {
   return (float)(c->last[part] + 1u - below) / UNITS;
 }
 
-// How many times the noise times the time would be without memory: relative to
-// the light of each cell, since eyes adapt.
+// Of all visits of a cell: relative to its light, since eyes adapt.
+static bill bill_of(const school *s, uint32_t row, const outlook *o) {
+  double p[LIGHT_PARTS_MOST], asked = 0;
+  for (uint32_t i = 0; i < s->parts; i++) {
+    p[i] = (double)share_of(&s->m->cells[row], i);
+    asked += p[i];
+  }
+  double times = s->lore.visits[row] / (o->light * o->light);
+  if (!isfinite(times)) return (bill){0, 0};
+  finds with = finds_of(o, s->parts, p);
+  finds without = finds_of(o, s->parts, s->usual_share);
+  return (bill){times * with.variance * (1 + COST * asked),
+                times * without.variance * (1 + COST)};
+}
+
+static void conclude(void *context, size_t item, int worker) {
+  (void)worker;
+  school *s = context;
+  uint32_t from = (uint32_t)item * ROWS, to = from + ROWS;
+  for (uint32_t row = from; row < to && row < s->lore.rows; row++) {
+    outlook o = outlook_of(s, row);
+    s->m->cells[row] = cell_of_outlook(s, &o);
+    if (row > 0 && row < s->lore.cells) s->bills[row] = bill_of(s, row, &o);
+  }
+}
+
+// How many times the noise times the time would be without memory.
 static double gain_of(const school *s) {
-  double without = 0, with = 0;
-  for (uint32_t cell = 1; cell < s->cells; cell++) {
-    double p[LIGHT_PARTS_MOST], asked = 0;
-    for (uint32_t i = 0; i < s->parts; i++) {
-      p[i] = (double)share_of(&s->m->cells[cell], i);
-      asked += p[i];
-    }
-    outlook o = outlook_of(s, cell);
-    double times = s->visits[cell] / (o.light * o.light);
-    if (!isfinite(times)) continue;
-    with += times * finds_of(&o, s->parts, p).variance * (1 + COST * asked);
-    without +=
-        times * finds_of(&o, s->parts, s->usual_share).variance * (1 + COST);
+  bill sum = {0, 0};
+  for (uint32_t row = 1; row < s->lore.cells; row++) {
+    sum.with += s->bills[row].with;
+    sum.without += s->bills[row].without;
   }
-  return with > 0 ? without / with : 0;
-}
-
-static void note(lore *l, const light_record *r, double share) {
-  double find = (double)r->found;
-  double scattered = 1 / fmax((double)r->weight, LEAST_WEIGHT) - 1;
-  l->asked++;
-  l->finds += find;
-  l->squares += find * find;
-  l->alone += find * find / (share * fmax(scattered, LEAST_SCATTERED));
-}
-
-static void attend(school *s, const light_record *records, size_t n) {
-  for (size_t i = 0; i < n; i++) {
-    const light_record *r = &records[i];
-    size_t cell = s->m->cell_of[r->key];
-    s->visits[cell]++;
-    double share = s->share[r->part];
-    note(&s->of[r->part], r, share);
-    note(&s->of[cell * s->parts + r->part], r, share);
-    note(&s->region[region_of(r->key) * s->parts + r->part], r, share);
-  }
+  return sum.with > 0 ? sum.without / sum.with : 0;
 }
 
 static void weigh_powers(school *s) {
@@ -295,24 +256,16 @@ static void weigh_powers(school *s) {
 }
 
 double light_memory_learn(light_memory *m, const light_record *records,
-                          size_t n, arena *mem) {
+                          size_t n, arena *mem, pool *threads) {
   arena scratch = {0};
-  school s = {.m = m, .cells = 1, .parts = m->count};
-  m->cell_of = ARENA_NEW(mem, uint16_t, KEYS);
-  for (size_t i = 0; i < n; i++)
-    if (m->cell_of[records[i].key] == 0 && s.cells < MOST_CELLS)
-      m->cell_of[records[i].key] = (uint16_t)s.cells++;
-  s.key_of = ARENA_NEW(&scratch, uint32_t, s.cells);
-  for (uint32_t i = 0; i < KEYS; i++)
-    s.key_of[m->cell_of[i]] = i;
-  s.visits = ARENA_NEW(&scratch, uint32_t, s.cells);
-  s.region = ARENA_NEW(&scratch, lore, (size_t)REGIONS * s.parts);
-  s.of = ARENA_NEW(&scratch, lore, (size_t)s.cells * s.parts);
+  school s = {.m = m, .parts = m->count};
   weigh_powers(&s);
-  attend(&s, records, n);
-  m->cells = ARENA_NEW(mem, light_cell, s.cells);
-  for (uint32_t i = 0; i < s.cells; i++)
-    m->cells[i] = conclude(&s, i);
+  s.lore = light_lore_of(records, n, s.share, s.parts, mem, &scratch);
+  s.bills = ARENA_NEW(&scratch, bill, s.lore.cells);
+  s.usual = outlook_of(&s, 0).light;
+  m->cell_of = s.lore.row_of[0];
+  m->cells = ARENA_NEW(mem, light_cell, s.lore.rows);
+  pool_run(threads, (s.lore.rows + ROWS - 1) / ROWS, conclude, &s);
   double gain = gain_of(&s);
   arena_free(&scratch);
   return gain;

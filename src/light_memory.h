@@ -4,24 +4,13 @@
 #ifndef LIGHT_MEMORY_H
 #define LIGHT_MEMORY_H
 
-#include "arena.h"
+#include "light_lore.h"
 #include "light_part.h"
+#include "pool.h"
 #include "vec.h"
 
-#include <stdint.h>
-
-// What one question brought: the cell of the place (light_memory_key), whom it
-// went to, and the irradiance from there over its density; 0 where something
-// was in between.  weight: the density of that question over that and the one
-// of scattered rays, together.
-typedef struct light_record {
-  uint32_t key, part;
-  float found, weight;
-} light_record;
-
-// Cells along the longest side of the scene, the sides that a surface may face,
-// and what probabilities are counted in.
-enum { LIGHT_GRID = 24, LIGHT_SIDES = 6, LIGHT_UNITS = 1 << 16 };
+// What probabilities are counted in.
+enum { LIGHT_UNITS = 1 << 16 };
 
 // Whom to ask, in units: part k for numbers after last[k - 1] up to
 // last[k], and for those beyond all none.  Two lines of the cache.
@@ -39,7 +28,7 @@ typedef struct light_memory {
   vec3 lo;
   float per_unit;     // cells along a unit of length
   uint16_t *cell_of;  // by key
-  light_cell *cells;  // the first one for places that nobody has been to
+  light_cell *cells;
 } light_memory;
 
 // One that has learned nothing: parts, LIGHT_PARTS_MOST at most, by their
@@ -52,7 +41,7 @@ bool light_memory_new(light_memory *out, const float *power, uint32_t count,
 // many times as fast memory takes noise away, by what the records say of
 // themselves.
 double light_memory_learn(light_memory *m, const light_record *records,
-                          size_t n, arena *mem);
+                          size_t n, arena *mem, pool *threads);
 
 // The axis that a normal runs along, twice, and 1 more where it runs down.
 static inline uint32_t light_side(vec3 n) {

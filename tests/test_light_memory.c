@@ -109,7 +109,7 @@ static void lies_do_no_harm(void **state) {
     for (uint32_t i = 0; i < 60; i++)
       records[i] = (light_record){light_memory_key(m, p, n), i % 50,
                                   i % 7 == 3 ? 10 : 0, 1};
-    if (lie) light_memory_learn(m, records, 60, &w->mem);
+    if (lie) light_memory_learn(m, records, 60, &w->mem, NULL);
     for (int i = 0; i < count; i++) {
       rng r = rng_of(4, (uint64_t)i, (uint32_t)lie);
       vec3 u = {rng_next(&r), rng_next(&r), rng_next(&r)};
@@ -128,6 +128,46 @@ static void lies_do_no_harm(void **state) {
   print_message("# irradiance %.5f, with lies %.5f, +- %.5f\n", mean[0],
                 mean[1], sqrt(spread));
   assert_true(fabs(mean[0] - mean[1]) < 4 * sqrt(spread));
+  world_free(w);
+}
+
+// The key of a cell of the box from -4 to 4, for what faces up.
+static uint32_t key_of_cell(const light_memory *m, float x, float y, float z) {
+  vec3 at = {(x + 0.5f) / 3 - 4, (y + 0.5f) / 3 - 4, (z + 0.5f) / 3 - 4};
+  return light_memory_key(m, at, (vec3){0, 1, 0});
+}
+
+// Two places that see different parts: their neighbours, where nobody has been,
+// expect the same as they; a place far from both something in between.
+static void neighbours_know(void **state) {
+  (void)state;
+  world *w = room_with_hole(1);
+  walker k;
+  corner_walker(&k, w);
+  light_memory *m =
+      light_set_cut(&k.lights, vec3_all(-4), vec3_all(4), &w->mem);
+  assert_non_null(m);
+  light_record records[2000];
+  for (uint32_t i = 0; i < 2000; i++) {
+    bool here = i % 2 == 0;
+    uint32_t part = i / 2 % 50;
+    uint32_t key = here ? key_of_cell(m, 4, 4, 4) : key_of_cell(m, 20, 20, 20);
+    float found = part == (here ? 7 : 9) ? 10 : 0;
+    records[i] = (light_record){key, part, found, 1};
+  }
+  light_memory_learn(m, records, 2000, &w->mem, NULL);
+  uint32_t near[2] = {key_of_cell(m, 5, 5, 5), key_of_cell(m, 21, 20, 21)};
+  uint32_t far = key_of_cell(m, 4, 20, 12);
+  float seven[3], nine[3];
+  for (int i = 0; i < 3; i++) {
+    seven[i] = light_memory_share(m, i < 2 ? near[i] : far, 7);
+    nine[i] = light_memory_share(m, i < 2 ? near[i] : far, 9);
+  }
+  print_message("# parts 7 and 9: %.3f %.3f, %.3f %.3f, far %.3f %.3f\n",
+                (double)seven[0], (double)nine[0], (double)seven[1],
+                (double)nine[1], (double)seven[2], (double)nine[2]);
+  assert_true(seven[0] > 4 * nine[0] && nine[1] > 4 * seven[1]);
+  assert_true(fabsf(seven[2] / nine[2] - 1) < 0.2f);
   world_free(w);
 }
 
@@ -287,6 +327,7 @@ int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(parts_cover_the_whole),
       cmocka_unit_test(lies_do_no_harm),
+      cmocka_unit_test(neighbours_know),
       cmocka_unit_test(memory_helps),
       cmocka_unit_test(questions_help),
       cmocka_unit_test(knows_what_it_gains),

@@ -247,7 +247,7 @@ static void lies_do_no_harm(void **state) {
     records[i] = (light_record){light_memory_key(m, p, (vec3){0, 1, 0}),
                                 i % m->count, i % 7 == 3 ? 9 : 0, 1};
   }
-  light_memory_learn(m, records, 600, &w->mem);
+  light_memory_learn(m, records, 600, &w->mem, NULL);
   k.lights.memory = m;
   render_result told = walker_draw(&k, 64, NULL);
   check_likeness(&plain, &told, "with lies");
