@@ -240,7 +240,7 @@ static double sky_lesson(light_memory *m, float bright, arena *mem) {
                                 power[ring] * cosine * RING,
                                 asked / (asked + scattered)};
   }
-  return light_memory_learn(m, records, COUNT, mem);
+  return light_memory_learn(m, records, COUNT, mem, NULL);
 }
 
 // By brute force: the variance of questions with probabilities p and scattered
