@@ -15,7 +15,7 @@ static bool look_alone(const wave *w, const stop *s, const bsdf *b,
                        light_sample *l, meeting *m) {
   const vertex *v = s->at;
   size_t i = (size_t)(v - w->met->at);
-  light_question q = wave_question(s);
+  light_question q = path_ready_question(s);
   if (w->together && w->met->asked[i])
     *l = w->met->light[i];
   else
@@ -68,7 +68,7 @@ static void ask_lights(wave *w, const stop *s, const bsdf *b) {
     return;
   }
   for (uint32_t i = 0; i < turns; i++) {
-    stop one = path_ready_turn(s, i, turns);
+    stop one = wave_turn(w, s, i);
     ask_light(w, &one, b, turns);
   }
 }

@@ -35,19 +35,35 @@ stop path_ready_stop(vertex *at, const path_ready *r, int lane) {
 
 static float turned(float u, float by) {
   u += by;
-  return u - floorf(u);
+  return u - float_floor(u);
 }
 
 // Points by steps of Roberts' sequence, the golden ratio's kin for squares.
 // Source: Roberts 2018, "The Unreasonable Effectiveness of Quasirandom
 // Sequences".
+static void turn(float *choice, float *u, float *v, uint32_t i,
+                 uint32_t turns) {
+  float n = (float)i;
+  *choice = float_min((n + *choice) / (float)turns, FLOAT_BELOW_1);
+  *u = turned(*u, 0.7548777f * n);
+  *v = turned(*v, 0.5698403f * n);
+}
+
 stop path_ready_turn(const stop *s, uint32_t i, uint32_t turns) {
   stop t = *s;
-  float n = (float)i;
-  t.u[USE_PICK] = float_min((n + s->u[USE_PICK]) / (float)turns, FLOAT_BELOW_1);
-  t.u[USE_LIGHT] = turned(s->u[USE_LIGHT], 0.7548777f * n);
-  t.u[USE_LIGHT + 1] = turned(s->u[USE_LIGHT + 1], 0.5698403f * n);
+  turn(&t.u[USE_PICK], &t.u[USE_LIGHT], &t.u[USE_LIGHT + 1], i, turns);
   return t;
+}
+
+void path_ready_turns(path_ready *to, const path_ready *of, size_t n,
+                      uint32_t i, uint32_t turns) {
+  for (size_t k = 0; k < n; k++) {
+    path_ready *r = &to[k / LANES];
+    size_t lane = k % LANES;
+    if (lane == 0) *r = of[k / LANES];
+    turn(&r->u[USE_PICK][lane], &r->u[USE_LIGHT][lane],
+         &r->u[USE_LIGHT + 1][lane], i, turns);
+  }
 }
 
 bool path_ready_light(const stop *s, light_sample *l, meeting *m) {

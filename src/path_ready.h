@@ -88,6 +88,16 @@ stop path_ready_stop(vertex *at, const path_ready *r, int lane);
 // many equal parts of [0, 1) chooses the light, and the point on it moves on.
 stop path_ready_turn(const stop *s, uint32_t i, uint32_t turns);
 
+// The same for n vertices.
+void path_ready_turns(path_ready *to, const path_ready *of, size_t n,
+                      uint32_t i, uint32_t turns);
+
+// What a stop asks of the lights.
+static inline light_question path_ready_question(const stop *s) {
+  vec3 u = {s->u[USE_PICK], s->u[USE_LIGHT], s->u[USE_LIGHT + 1]};
+  return (light_question){s->at->at.p, s->at->n, u};
+}
+
 // What a light sample meets at a surface: the cosine to it, f, and the density
 // with which the BSDF would have found it.
 typedef struct meeting {

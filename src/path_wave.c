@@ -15,6 +15,8 @@ wave *wave_room(const path_tracer *by, arena *mem) {
   w->blocked = ARENA_NEW(mem, bool, m);
   w->met = ARENA_NEW(mem, met, 1);
   w->missed = ARENA_NEW(mem, missed, 1);
+  if (by->questions > 1 && by->sky != NULL)
+    w->turns = ARENA_NEW(mem, path_ready, by->questions * (MET / LANES));
   w->plain = path_plains(by->world->scene, mem);
   if (by->aim != NULL) w->aims = path_aims_room(mem);
   if (by->film != NULL) w->shares = ARENA_NEW(mem, path_shares, 1);
@@ -30,7 +32,7 @@ void wave_survey(wave *w) {
   w->lights = by->world->thorough || light_set_any(by->lights);
   w->lit = w->lights && once && path_ready_lights(by->lights);
   bool many = by->sky != NULL && fabsf(sky->rotate) < SKY_MOST_TURNS;
-  w->asks = once && bright && many;
+  w->asks = bright && many;
   w->together = once && bright && !w->asks;
   w->even = sky->kind == ENV_CONSTANT && !bright;
   w->looks = many && (sky->kind == ENV_SKY || env_has_map(sky));
@@ -186,7 +188,19 @@ void wave_meet_glow(const wave *w, path *p, const vertex *v) {
 // Whether nobody asks more of plain vertices than their lanes know.
 static bool lanes_will_do(const wave *w) {
   if (w->aims != NULL || w->shares != NULL || w->by->log != NULL) return false;
-  return !w->lights || ((w->lit || w->asks) && !w->sheets);
+  return !w->lights ||
+         ((w->lit || (w->asks && w->by->questions <= 1)) && !w->sheets);
+}
+
+// Ask for those of them that are matt, once or several times.
+static void ask_all(const wave *w, size_t n) {
+  const path_tracer *by = w->by;
+  if (by->questions <= 1) by->sky->ask(by->lights, w->met->ready, n);
+  for (uint32_t i = 0; i < by->questions && by->questions > 1; i++) {
+    path_ready *turn = w->turns + i * (MET / LANES);
+    path_ready_turns(turn, w->met->ready, n, i, by->questions);
+    by->sky->ask(by->lights, turn, n);
+  }
 }
 
 void wave_vertices(const wave *w, size_t n) {
@@ -202,7 +216,15 @@ void wave_vertices(const wave *w, size_t n) {
                    .at = m->at,
                    .ready = m->ready};
   (by->ready != NULL ? by->ready : path_ready_alone)(&job, n);
-  if (w->asks) by->sky->ask(by->lights, m->ready, n);
+  if (w->asks) ask_all(w, n);
+}
+
+stop wave_turn(const wave *w, const stop *s, uint32_t i) {
+  stop one = path_ready_turn(s, i, w->by->questions);
+  if (!w->asks || s->ready == NULL) return one;
+  one.ready = w->turns + i * (MET / LANES) + (s->ready - w->met->ready);
+  one.lit = true;
+  return one;
 }
 
 void wave_ask(const wave *w, size_t n) {
@@ -215,7 +237,7 @@ void wave_ask(const wave *w, size_t n) {
     stop s = path_ready_stop(&m->at[i], v, (int)(i % LANES));
     m->asked[i] = s.ready != NULL && !v->plain[i % LANES];
     if (!m->asked[i]) continue;
-    q[count] = wave_question(&s);
+    q[count] = path_ready_question(&s);
     which[count++] = i;
   }
   if (count == 0) return;

@@ -72,6 +72,8 @@ typedef struct wave {
   shadow *shadows;
   bool *blocked;
   met *met;
+  path_ready *turns;  // of met, of one question after the other, if there are
+                      // several
   missed *missed;
   path_aims *aims;      // NULL: no ray is aimed
   path_shares *shares;  // NULL: nothing is shared
@@ -104,11 +106,9 @@ void wave_meet_glow(const wave *w, path *p, const vertex *v);
 // The vertices of the first n rays and hits of w->met.
 void wave_vertices(const wave *w, size_t n);
 
-// What a stop asks of the lights.
-static inline light_question wave_question(const stop *s) {
-  vec3 u = {s->u[USE_PICK], s->u[USE_LIGHT], s->u[USE_LIGHT + 1]};
-  return (light_question){s->at->at.p, s->at->n, u};
-}
+// Question i of several to lights: one that is matt knows its answer, if
+// by->sky does.
+stop wave_turn(const wave *w, const stop *s, uint32_t i);
 
 // Ask lights at once for those of them that are matt, but for plain ones.
 void wave_ask(const wave *w, size_t n);

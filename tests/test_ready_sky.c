@@ -226,8 +226,17 @@ static void sky_is_alone(void **unused) {
   }
 }
 
+// What was written down is the same; the second log is freed.
+static void check_log(const path_log *a, const path_log *b) {
+  assert_int_equal(a->count, b->count);
+  if (a->count > 0)
+    assert_memory_equal(a->items, b->items, a->count * sizeof *a->items);
+  array_free(b->items);
+}
+
 // Whole paths: the same radiance by any of these, with plain vertices and
-// without, and where the sky is turned too often to be asked by many.
+// without, with one question to lights or several, and where the sky is turned
+// too often to be asked by many.
 static void paths_are_alone(void **unused) {
   (void)unused;
   enum { STARTS = 400 };
@@ -243,16 +252,25 @@ static void paths_are_alone(void **unused) {
     for (uint32_t i = 0; i < STARTS; i++)
       starts[i] = (path_start){
           camera_ray(&view, (float)(i % 100), (float)i / 40), i % 50, i / 50};
+    path_log first = {0};
     path_tracer walker = {.world = &w->path, .lights = &lights};
+    walker.questions = k % 2 ? 8 : 0;
+    walker.log = k % 2 && lights.memory != NULL ? &first : NULL;
     integrator by = path_integrator(&walker);
+    void *alone_room = by.room(by.self, &w->mem);
+    by.radiance(by.self, starts, STARTS, alone, &stats, alone_room);
+    walker.sky = ready_sky_best();
     void *room = by.room(by.self, &w->mem);
-    by.radiance(by.self, starts, STARTS, alone, &stats, room);
     for (int level = 0; level < 2 * WIDE_LEVELS; level++) {
       walker.ready = level % 2 ? ready_by(level / 2) : NULL;
       walker.sky = ready_sky_by(level / 2);
+      path_log log = {0};
+      if (walker.log != NULL) walker.log = &log;
       by.radiance(by.self, starts, STARTS, out, &stats, room);
       assert_memory_equal(alone, out, sizeof out);
+      check_log(&first, &log);
     }
+    array_free(first.items);
     world_free(w);
   }
 }
