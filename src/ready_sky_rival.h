@@ -37,7 +37,7 @@ static inline void sky_expect_cells(const sky_view *s, const light_env *e) {
 }
 
 // From where sixteen look: which kinds of light would be asked there, and where
-// in the memory that is.
+// in the memory that is, of which one part is looked up.
 static inline void sky_stand(sky_view *s, const light_set *l,
                              const sky_looks *q, size_t from, size_t n) {
   lanes3 p, normal;
@@ -48,8 +48,16 @@ static inline void sky_stand(sky_view *s, const light_set *l,
   }
   sky_kinds_at(l, &p, &normal, &s->kinds);
   if (!sky_known(l)) return;
-  ready_keys(l->memory, &p, &normal, s->known);
-  ready_fetch(l->memory, s->known);
+  const light_memory *m = l->memory;
+  const light_sky *k = &l->sky;
+  ready_keys(m, &p, &normal, s->known);
+  for (int i = 0; i < LANES; i++)
+    s->of[i] = k->part_of[(s->cell.row[i] >> k->shift) * k->across +
+                          (s->cell.column[i] >> k->shift)];
+  for (int i = 0; i < LANES; i++) {
+    s->known[i] = m->cell_of[s->known[i]];
+    __builtin_prefetch(&m->cells[s->known[i]].last[s->of[i]]);
+  }
 }
 
 // Lane i: the probability of the cell, and that its part is asked.
@@ -62,12 +70,9 @@ static inline void sky_share(sky_view *s, int i, const light_set *l) {
     s->share[i] = share * pick_share(&e->rows, (uint32_t)row);
     return;
   }
-  const light_sky *k = &l->sky;
-  uint32_t part =
-      k->part_of[(row >> k->shift) * k->across + (column >> k->shift)];
-  const light_sky_part *p = &k->parts[part];
+  const light_sky_part *p = &l->sky.parts[s->of[i]];
   s->share[i] = share * p->of_row[row - p->row].each;
-  s->part[i] = lane_share(&l->memory->cells[s->known[i]], part);
+  s->part[i] = lane_share(&l->memory->cells[s->known[i]], s->of[i]);
 }
 
 // Whether the texels of lane i's cell are those of its lookup: they are, but

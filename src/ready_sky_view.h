@@ -18,8 +18,8 @@ typedef struct sky_view {
   sky_texels texels;
   sky_cells cell;
   sky_kinds kinds;
-  uint32_t known[LANES];            // cell of the memory
-  float share[LANES], part[LANES];  // probabilities of the cell and its part
+  uint32_t known[LANES], of[LANES];  // cell of the memory, part of the table
+  float share[LANES], part[LANES];   // probabilities of the cell and its part
   float pdf[LANES];
 } sky_view;
 
