@@ -66,6 +66,11 @@ void path_ready_turns(path_ready *to, const path_ready *of, size_t n,
   }
 }
 
+light_question path_ready_question(const stop *s) {
+  vec3 u = {s->u[USE_PICK], s->u[USE_LIGHT], s->u[USE_LIGHT + 1]};
+  return (light_question){s->at->at.p, s->at->n, u};
+}
+
 bool path_ready_light(const stop *s, light_sample *l, meeting *m) {
   const path_ready *r = s->ready;
   int i = s->lane;
@@ -97,4 +102,9 @@ ray path_ready_leave(const stop *s, bsdf_sample *d) {
   d->weight = lanes_at(&r->weight, s->lane);
   d->pdf = r->leave_pdf[s->lane];
   return ray_from(lanes_at(&r->from, s->lane), lanes_at(&r->leave, s->lane));
+}
+
+bool path_ready_lights(const light_set *l) {
+  return l->near.count > 0 && l->name_count == l->near.count &&
+         l->far_count == 0 && !(l->env.irradiance > 0);
 }

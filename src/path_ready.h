@@ -93,10 +93,7 @@ void path_ready_turns(path_ready *to, const path_ready *of, size_t n,
                       uint32_t i, uint32_t turns);
 
 // What a stop asks of the lights.
-static inline light_question path_ready_question(const stop *s) {
-  vec3 u = {s->u[USE_PICK], s->u[USE_LIGHT], s->u[USE_LIGHT + 1]};
-  return (light_question){s->at->at.p, s->at->n, u};
-}
+light_question path_ready_question(const stop *s);
 
 // What a light sample meets at a surface: the cosine to it, f, and the density
 // with which the BSDF would have found it.
@@ -115,9 +112,6 @@ ray path_ready_shadow(const stop *s);
 ray path_ready_leave(const stop *s, bsdf_sample *d);
 
 // Whether all lights are triangles.
-static inline bool path_ready_lights(const light_set *l) {
-  return l->near.count > 0 && l->name_count == l->near.count &&
-         l->far_count == 0 && !(l->env.irradiance > 0);
-}
+bool path_ready_lights(const light_set *l);
 
 #endif
