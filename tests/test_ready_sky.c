@@ -213,7 +213,7 @@ static void sky_is_alone(void **unused) {
   for (int k = 0; k < MAPS * ALL; k++) {
     light_set lights;
     map_kind sky = (map_kind)(k / ALL);
-    const long few = sky == SUN ? -1 : count / 20;
+    const long few = sky == SUN ? -1 : (long)count / 20;
     world *w = new_world(sky, (company)(k % ALL), &lights);
     for (int level = 0; level < WIDE_LEVELS; level++) {
       const path_sky *by = ready_sky_by(level);
