@@ -61,7 +61,7 @@ static const light_memory *taught(light_memory *m, arena *mem) {
     records[i] = (light_record){light_memory_key(m, at, (vec3){0, 1, 0}), part,
                                 part % 3 ? rng_next(&r) : 0, 0.5f};
   }
-  light_memory_learn(m, records, RECORDS, mem);
+  light_memory_learn(m, records, RECORDS, mem, NULL);
   return m;
 }
 
