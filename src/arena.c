@@ -18,7 +18,7 @@
 enum { BLOCK_BYTES = 1 << 16 };
 
 // From here on large pages are worth asking for.
-enum { LARGE_BYTES = 1 << 22 };
+enum { LARGE_BYTES = 1 << 21 };
 
 // The bytes follow the header; `used` counts them.
 struct arena_block {

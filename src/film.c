@@ -7,17 +7,18 @@
 #include <float.h>
 #include <string.h>
 
-// All pages at once: a sum is read before it is written, which would interrupt
-// twice a page.
+// One block, so that it may have large pages; and all pages at once: a sum is
+// read before it is written, which would interrupt twice a page.
 film film_new(arena *mem, int width, int height, bool with_variance) {
   size_t n = (size_t)width * (size_t)height;
   film f = {.width = width, .height = height};
-  f.sum = arena_alloc(mem, n, sizeof *f.sum);
-  f.count = ARENA_NEW(mem, uint32_t, n);
-  if (with_variance) f.square = arena_alloc(mem, n, sizeof *f.square);
-  pages_expect(f.sum, n * sizeof *f.sum);
-  pages_expect(f.count, n * sizeof *f.count);
-  if (with_variance) pages_expect(f.square, n * sizeof *f.square);
+  size_t sums = n * sizeof *f.sum, squares = with_variance ? sums : 0;
+  size_t each = (with_variance ? 2 : 1) * sizeof *f.sum + sizeof *f.count;
+  char *all = arena_alloc(mem, n, each);
+  f.sum = (double(*)[3])(void *)all;
+  if (with_variance) f.square = (double(*)[3])(void *)(all + sums);
+  f.count = (uint32_t *)(void *)(all + sums + squares);
+  pages_expect(all, n * each);
   return f;
 }
 
