@@ -42,20 +42,23 @@ struct view_paths {
   integrator by;
   camera_view view;
   film film;
+  arena rooms;  // of the team
   view_worker *team;
   int tiles_across, tile_count;
   int spp;       // passes in the film
   bool running;  // a pass is under way
 };
 
+// Anew for each look: a room knows what of its materials is plain.
 static void hire_workers(view_paths *p) {
   size_t workers = (size_t)pool_threads(p->threads);
-  p->team = ARENA_NEW(p->mem, view_worker, workers);
+  arena_free(&p->rooms);
+  p->team = ARENA_NEW(&p->rooms, view_worker, workers);
   for (size_t i = 0; i < workers; i++) {
     view_worker *w = &p->team[i];
-    w->starts = ARENA_NEW(p->mem, path_start, TILE_SIDE * TILE_SIDE);
-    w->colors = ARENA_NEW(p->mem, vec3, TILE_SIDE * TILE_SIDE);
-    w->room = p->by.room(p->by.self, p->mem);
+    w->starts = ARENA_NEW(&p->rooms, path_start, TILE_SIDE * TILE_SIDE);
+    w->colors = ARENA_NEW(&p->rooms, vec3, TILE_SIDE * TILE_SIDE);
+    w->room = p->by.room(p->by.self, &p->rooms);
   }
 }
 
@@ -75,7 +78,6 @@ view_paths *view_paths_new(const view_paths_settings *set, pool *threads,
                             .sky = ready_sky_best(),
                             .seed = set->seed};
   p->by = path_integrator(&p->tracer);
-  hire_workers(p);
   p->tiles_across = (set->width + TILE_SIDE - 1) / TILE_SIDE;
   p->tile_count = p->tiles_across * ((set->height + TILE_SIDE - 1) / TILE_SIDE);
   return p;
@@ -167,6 +169,7 @@ bool view_paths_restart(view_paths *p, const view_look *look, error *err) {
   const view_tree *t = tree_for(p, look);
   p->world.tracer = wide_tracer(&t->tree);
   p->tracer.lights = &t->lights;
+  hire_workers(p);
   size_t pixels = (size_t)p->set.width * (size_t)p->set.height;
   memset(p->film.sum, 0, pixels * sizeof *p->film.sum);
   memset(p->film.count, 0, pixels * sizeof *p->film.count);
@@ -199,5 +202,7 @@ int view_paths_spp(const view_paths *p) {
 }
 
 void view_paths_free(view_paths *p) {
-  if (p != NULL) view_paths_stop(p);
+  if (p == NULL) return;
+  view_paths_stop(p);
+  arena_free(&p->rooms);
 }
