@@ -69,10 +69,6 @@ view_paths *view_paths_new(const view_paths_settings *set, pool *threads,
   *p = (view_paths){.given = s, .set = *set, .threads = threads, .mem = mem};
   p->scene = *s;
   p->scene.materials = ARENA_NEW(mem, material, s->material_count + 1);
-  // Rooms look which of them are plain; no look changes that.
-  if (s->material_count > 0)
-    memcpy(p->scene.materials, s->materials,
-           s->material_count * sizeof *s->materials);
   p->world = set->world;
   p->world.scene = &p->scene;
   p->film = film_new(mem, set->width, set->height, false);
