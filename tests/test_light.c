@@ -4,6 +4,7 @@
 #include "light.h"
 #include "light_emission.h"
 #include "num.h"
+#include "skies.h"
 #include "worlds.h"
 
 // Chi-square tests that go wrong by chance once in a thousand.
@@ -48,21 +49,14 @@ typedef enum map_kind {
   MAP_KINDS
 } map_kind;
 
-static env env_of(map_kind kind, arena *mem) {
-  env e = {.kind = kind == SKY ? ENV_SKY : ENV_MAP, .scale = 1.5f};
-  e.rotate = 0.3f;
-  int w = kind == SMALL ? 3 : 32, h = kind == SMALL ? 1 : 16;
-  e.map = image_new(mem, w, h);
-  rng r = rng_of(1, (uint64_t)kind, 0);
-  for (int i = 0; i < w * h; i++) {
-    float x = rng_next(&r);
-    vec3 *c = &e.map.pixels[i];
-    if (kind == NOISE || kind == SMALL) *c = (vec3){10 * x * x * x, x, x};
-    if (kind == HOT) *c = vec3_all(i == 200 ? 1e6f : 0.5f);
-    if (kind == GREY) *c = vec3_all(0.5f);
-  }
-  return e;
-}
+static const sky_plan PLANS[MAP_KINDS] = {
+    [NOISE] = {SKY_NOISE, 32, 16, .rotate = 0.3f},
+    [HOT] = {SKY_HOT, 32, 16, 200, 0.3f},
+    [DARK] = {SKY_DARK, 32, 16, .rotate = 0.3f},
+    [GREY] = {SKY_EVEN, 32, 16, .rotate = 0.3f},
+    [SMALL] = {SKY_NOISE, 3, 1, .rotate = 0.3f},
+    [SKY] = {SKY_BUILT_IN, 32, 16, .rotate = 0.3f},
+};
 
 enum { CELLS_X = 48, CELLS_Y = 24, CELLS = CELLS_X * CELLS_Y };
 
@@ -78,7 +72,7 @@ static void many_samples_are_those_of_one(void **state) {
   enum { MANY = 300 };  // in more rounds than one, and the last not full
   arena mem = {0};
   for (map_kind kind = 0; kind < MAP_KINDS; kind++) {
-    env e = env_of(kind, &mem);
+    env e = sky_env(&PLANS[kind], &mem);
     light_env l;
     light_env_build(&l, &e, &mem, NULL);
     vec2 u[MANY];
@@ -123,7 +117,7 @@ static void env_samples_follow_their_density(void **state) {
   arena mem = {0};
   const long n = shortened(1000000);
   for (map_kind kind = 0; kind < MAP_KINDS; kind++) {
-    env e = env_of(kind, &mem);
+    env e = sky_env(&PLANS[kind], &mem);
     light_env l;
     light_env_build(&l, &e, &mem, NULL);
     bool any = kind != DARK && kind != GREY;
@@ -369,7 +363,7 @@ static void everything_adds_up(void **state) {
   (void)state;
   for (map_kind kind = 0; kind < MAP_KINDS; kind++) {
     world *w = world_new();
-    w->scene.env = env_of(kind, &w->mem);
+    w->scene.env = sky_env(&PLANS[kind], &w->mem);
     double want = sum_env(&w->scene.env);
     world_ready(w, 0);
     light_set l;
@@ -506,7 +500,7 @@ static void check_finite(const light_set *l, vec3 p, vec3 n, vec3 u) {
 static void nothing_is_ever_not_finite(void **state) {
   (void)state;
   world *w = world_new();
-  w->scene.env = env_of(HOT, &w->mem);
+  w->scene.env = sky_env(&PLANS[HOT], &w->mem);
   add_ceiling(w, 1, 1);
   w->materials[2] = w->materials[1];
   w->materials[2].ke = vec3_all(1e30f);
@@ -554,7 +548,7 @@ static void many_questions_are_those_of_one(void **state) {
   (void)state;
   enum { MANY = 150 };
   world *w = world_new();
-  w->scene.env = env_of(NOISE, &w->mem);
+  w->scene.env = sky_env(&PLANS[NOISE], &w->mem);
   add_ceiling(w, 3, 0.5f);
   w->lights[0] = (light){LIGHT_DIR, {1, -1, 0}, {3, 3, 3}};
   w->lights[1] = (light){LIGHT_POINT, {0, 0.5f, 0}, {1, 1, 1}};

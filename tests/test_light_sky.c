@@ -3,6 +3,7 @@
 
 #include "chi.h"
 #include "num.h"
+#include "skies.h"
 #include "walkers.h"
 
 // Chi-square tests, a few hundred of them, go wrong by chance less often.
@@ -11,24 +12,13 @@
 // Maps that are hard to cut in one way each.
 typedef enum map_kind { NOISE, SUN, STRIPES, SMALL, SKY, MAP_KINDS } map_kind;
 
-static env env_of(map_kind kind, arena *mem) {
-  env e = {.kind = kind == SKY ? ENV_SKY : ENV_MAP, .scale = 1.5f};
-  e.rotate = 0.3f;
-  int w = kind == SMALL   ? 3
-          : kind == NOISE ? 384
-                          : 32,
-      h = kind == SMALL ? 1 : 16;
-  e.map = image_new(mem, w, h);
-  rng r = rng_of(1, (uint64_t)kind, 0);
-  for (int i = 0; i < w * h; i++) {
-    float x = rng_next(&r);
-    vec3 *c = &e.map.pixels[i];
-    if (kind == NOISE || kind == SMALL) *c = (vec3){10 * x * x * x, x, x};
-    if (kind == SUN) *c = vec3_all(i == 200 ? 1e6f : x);
-    if (kind == STRIPES) *c = vec3_all(i / w % 4 == 0 ? x : 0);
-  }
-  return e;
-}
+static const sky_plan PLANS[MAP_KINDS] = {
+    [NOISE] = {SKY_NOISE, 384, 16, .rotate = 0.3f},
+    [SUN] = {SKY_SUN, 32, 16, 200, 0.3f},
+    [STRIPES] = {SKY_STRIPES, 32, 16, .rotate = 0.3f},
+    [SMALL] = {SKY_NOISE, 3, 1, .rotate = 0.3f},
+    [SKY] = {SKY_BUILT_IN, 32, 16, .rotate = 0.3f},
+};
 
 // Bins over the sphere whose edges are edges of cells of the table.
 enum { BINS_X = 96, BINS_Y = 32, BINS = BINS_X * BINS_Y };
@@ -94,7 +84,7 @@ static void samples_of_parts_follow_their_density(void **state) {
   counts *want = calloc(1, sizeof *want);
   for (int i = 0; i < 2 * MAP_KINDS; i++) {
     map_kind kind = (map_kind)(i / 2);
-    env e = env_of(kind, &mem);
+    env e = sky_env(&PLANS[kind], &mem);
     light_env bright, table;
     light_env_build(&bright, &e, &mem, NULL);
     table = bright;

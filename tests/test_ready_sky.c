@@ -4,6 +4,7 @@
 #include "num.h"
 #include "path.h"
 #include "ready.h"
+#include "skies.h"
 #include "wide.h"
 #include "world_hits.h"
 
@@ -19,23 +20,14 @@ static void assert_float(float a, float b) {
 
 typedef enum map_kind { NOISE, SUN, STRIPES, SMALL, EVEN, SKY, MAPS } map_kind;
 
-static env env_of(map_kind kind, arena *mem) {
-  env e = {.kind = kind == SKY ? ENV_SKY : ENV_MAP, .scale = 1.5f};
-  e.rotate = kind == SUN ? -7.25f : kind == STRIPES ? 0 : 0.3f;
-  int w = kind == SMALL ? 3 : kind == SUN ? 128 : 61;
-  int h = kind == SMALL ? 1 : kind == SUN ? 64 : 33;
-  e.map = image_new(mem, w, h);
-  rng r = rng_of(1, (uint64_t)kind, 0);
-  for (int i = 0; i < w * h; i++) {
-    float x = rng_next(&r);
-    vec3 *c = &e.map.pixels[i];
-    if (kind == NOISE || kind == SMALL) *c = (vec3){10 * x * x * x, x, x};
-    if (kind == SUN) *c = vec3_all(i == 1200 ? 1e6f : x);
-    if (kind == STRIPES) *c = vec3_all(i / w % 4 == 0 ? x : 0);
-    if (kind == EVEN) *c = (vec3){1, 2, 3};
-  }
-  return e;
-}
+static const sky_plan PLANS[MAPS] = {
+    [NOISE] = {SKY_NOISE, 61, 33, .rotate = 0.3f},
+    [SUN] = {SKY_SUN, 128, 64, 1200, -7.25f},
+    [STRIPES] = {SKY_STRIPES, 61, 33},
+    [SMALL] = {SKY_NOISE, 3, 1, .rotate = 0.3f},
+    [EVEN] = {SKY_EVEN, 61, 33, .rotate = 0.3f},
+    [SKY] = {SKY_BUILT_IN, 61, 33, .rotate = 0.3f},
+};
 
 // Who else shines, and of what there is a memory.
 typedef enum company {
@@ -86,7 +78,7 @@ static world *new_world(map_kind sky, company with, light_set *lights) {
   w->lights[0] = (light){LIGHT_DIR, {1, -1, 0}, {2, 2, 1}};
   w->lights[1] = (light){LIGHT_POINT, {0, 3, 1}, {1, 4, 1}};
   w->scene.light_count = lamps > 0 ? 2 : 0;
-  w->scene.env = env_of(sky, &w->mem);
+  w->scene.env = sky_env(&PLANS[sky], &w->mem);
   world_ready(w, 0);
   light_set_build(lights, &w->scene, true, true, &w->mem, NULL);
   assert_int_equal(lights->env.irradiance > 0, sky != EVEN);
