@@ -76,6 +76,9 @@ def make(folder, files):
 
 done, failed = 0, 0
 
+# Seconds; sanitizers make everything several times slower.
+LONGEST = 60 if os.environ.get("FACET_SANITIZED") else 10
+
 
 def run(args, folder, stdin):
     """Exit status, peak memory in MB (no less than this script's own), and what
@@ -84,7 +87,7 @@ def run(args, folder, stdin):
         given.write(stdin)
         given.seek(0)
         p = subprocess.Popen([facet, *args], cwd=folder / "in", stdin=given, stdout=said, stderr=said)
-        killer = threading.Timer(10, p.kill)
+        killer = threading.Timer(LONGEST, p.kill)
         killer.start()
         _, status, usage = os.wait4(p.pid, 0)
         killer.cancel()
