@@ -1,5 +1,5 @@
-// light_sky.h — the bright of an environment in parts, so that a place may ask
-// those that it sees.
+// light_sky.h — an environment in parts, so that a place may ask those that it
+// sees.
 
 #ifndef LIGHT_SKY_H
 #define LIGHT_SKY_H

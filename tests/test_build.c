@@ -49,6 +49,13 @@ static void shapes_large(shape out[LARGE], arena *mem) {
   }
 }
 
+// All meshes, and threads.
+static pool *prepare(shape s[SHAPES + LARGE], arena *mem) {
+  shapes_all(s, mem);
+  shapes_large(s + SHAPES, mem);
+  return pool_new(mem, 3);
+}
+
 // The same bytes by any hands, any number of threads, for every method.
 static void hands_do_not_matter(void **unused) {
   (void)unused;
@@ -56,9 +63,7 @@ static void hands_do_not_matter(void **unused) {
   if (hands == NULL) skip();
   arena mem = {0};
   shape s[SHAPES + LARGE];
-  shapes_all(s, &mem);
-  shapes_large(s + SHAPES, &mem);
-  pool *threads = pool_new(&mem, 3);
+  pool *threads = prepare(s, &mem);
   for (int i = 0; i < SHAPES + LARGE; i++) {
     for (int method = 0; method < METHODS; method++) {
       arena once = {0};
@@ -156,9 +161,7 @@ static void collapse_is_cheapest(void **unused) {
   (void)unused;
   arena mem = {0};
   shape s[SHAPES + LARGE];
-  shapes_all(s, &mem);
-  shapes_large(s + SHAPES, &mem);
-  pool *threads = pool_new(&mem, 3);
+  pool *threads = prepare(s, &mem);
   for (int i = 0; i < SHAPES + LARGE; i++) {
     arena once = {0};
     bvh b;

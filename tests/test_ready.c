@@ -244,9 +244,7 @@ static void paths_are_alone(void **unused) {
     path_start starts[STARTS];
     vec3 alone[STARTS], out[STARTS];
     path_stats stats = {0};
-    for (uint32_t i = 0; i < STARTS; i++)
-      starts[i] = (path_start){
-          camera_ray(&view, (float)(i % 100), (float)i / 40), i % 50, i / 50};
+    world_starts(starts, STARTS, &view);
     path_tracer walker = {.world = &w->path,
                           .lights = &lights,
                           .sampler = k == 3 ? SAMPLER_RANDOM : SAMPLER_SOBOL};

@@ -1,4 +1,4 @@
-// world_hits.h — hits all over a world.
+// world_hits.h — hits all over a world, and paths into it.
 
 #ifndef WORLD_HITS_H
 #define WORLD_HITS_H
@@ -29,6 +29,14 @@ static inline size_t world_hits(const world *w, uint64_t seed, hit *hits,
     rays[n++] = at;
   }
   return n;
+}
+
+// Paths all over a view of 100 x 10 pixels, as samples of 50 of them.
+static inline void world_starts(path_start *starts, uint32_t n,
+                                const camera_view *view) {
+  for (uint32_t i = 0; i < n; i++)
+    starts[i] = (path_start){camera_ray(view, (float)(i % 100), (float)i / 40),
+                             i % 50, i / 50};
 }
 
 #endif
