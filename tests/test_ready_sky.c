@@ -23,7 +23,7 @@ typedef enum map_kind { NOISE, SUN, STRIPES, SMALL, EVEN, SKY, MAPS } map_kind;
 static const sky_plan PLANS[MAPS] = {
     [NOISE] = {SKY_NOISE, 61, 33, .rotate = 0.3f},
     [SUN] = {SKY_SUN, 128, 64, 1200, -7.25f},
-    [STRIPES] = {SKY_STRIPES, 61, 33},
+    [STRIPES] = {SKY_STRIPES, .width = 61, .height = 33},
     [SMALL] = {SKY_NOISE, 3, 1, .rotate = 0.3f},
     [EVEN] = {SKY_EVEN, 61, 33, .rotate = 0.3f},
     [SKY] = {SKY_BUILT_IN, 61, 33, .rotate = 0.3f},
