@@ -345,4 +345,5 @@ def main():
         (z_test if options.z_test else compare)(name, options)
 
 
-main()
+if __name__ == "__main__":
+    main()
