@@ -211,9 +211,9 @@ static void build_top(builder *b, const bvh_part *root, arena *refs,
   b->next_level = level;
   while (b->level_count > 0) {
     begin_level(b);
-    pool_run(b->threads, b->chunk_count, bin_chunk, b);
+    pool_run_near(b->threads, b->chunk_count, bin_chunk, b);
     pool_run(b->threads, b->level_count, cut_node, b);
-    pool_run(b->threads, b->chunk_count, move_chunk, b);
+    pool_run_near(b->threads, b->chunk_count, move_chunk, b);
     end_level(b);
   }
 }
@@ -272,7 +272,7 @@ static void build_tasks(builder *b, arena *mem, arena *refs, arena *scratch) {
   bvh *out = b->out;
   out->order = ARENA_NEW(mem, uint32_t, out->kept);
   make_rooms(b, out->kept, scratch);
-  pool_run(b->threads, b->task_count, run_task, b);
+  pool_run_near(b->threads, b->task_count, run_task, b);
   b->offsets = ARENA_NEW(scratch, uint32_t, b->task_count);
   uint32_t count = b->top_count;
   for (uint32_t k = 0; k < b->task_count; k++) {
@@ -285,7 +285,7 @@ static void build_tasks(builder *b, arena *mem, arena *refs, arena *scratch) {
   out->nodes = ARENA_NEW(mem, bvh_node, count);
   for (uint32_t i = 0; i < b->top_count; i++)
     out->nodes[i] = b->top[i];
-  pool_run(b->threads, b->task_count, copy_task, b);
+  pool_run_near(b->threads, b->task_count, copy_task, b);
   for (int i = 0; i < pool_threads(b->threads); i++)
     arena_free(&b->rooms[i].done);
   arena_free(refs);

@@ -82,13 +82,15 @@ static void read_piece(void *context, size_t item, int worker) {
   uint32_t begin = (uint32_t)item * PIECE, n = job->b->triangle_count;
   uint32_t end = n - begin < PIECE ? n : begin + PIECE;
   sah_ref *to = job->refs + begin;
-  p->box = p->centres = sah_box_empty();
+  sah_box box = sah_box_empty(), centres = box;
   for (uint32_t t = begin; t < end; t++) {
     if (!ref_of_triangle(job->b, t, to)) continue;
-    sah_box_join(&p->box, &to->box);
-    sah_box_join_centre(&p->centres, &to->box);
+    sah_box_join(&box, &to->box);
+    sah_box_join_centre(&centres, &to->box);
     to++;
   }
+  p->box = box;
+  p->centres = centres;
   p->kept = (uint32_t)(to - job->refs) - begin;
 }
 
@@ -99,7 +101,7 @@ bvh_part bvh_read(sah_ref **refs, bvh *b, uint32_t percent, arena *mem,
   reading job = {.b = b,
                  .pieces = ARENA_NEW(mem, mesh_piece, pieces),
                  .refs = ARENA_NEW(mem, sah_ref, room)};
-  pool_run(threads, pieces, read_piece, &job);
+  pool_run_near(threads, pieces, read_piece, &job);
   bvh_part root = {.end = 0};
   root.box = root.centres = sah_box_empty();
   for (uint32_t i = 0; i < pieces; i++) {

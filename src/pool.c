@@ -26,6 +26,14 @@ typedef struct pool_helper {
   int worker;
 } pool_helper;
 
+// Items that one worker begins with, next..end-1; on lines of its own, as all
+// ask for it.
+typedef struct pool_stretch {
+  atomic_size_t next;
+  size_t end;
+  char apart[128 - 2 * sizeof(size_t)];
+} pool_stretch;
+
 // The lock guards round, busy and quit; work, context and items change only
 // while no helper is busy.
 struct pool {
@@ -40,6 +48,7 @@ struct pool {
   void *context;
   size_t items;
   atomic_size_t next;  // the next item that nobody has taken
+  pool_stretch *stretches;
 };
 
 int pool_default_threads(void) {
@@ -92,6 +101,7 @@ pool *pool_new(arena *mem, int threads) {
   pthread_cond_init(&p->start, NULL);
   pthread_cond_init(&p->done, NULL);
   p->helpers = ARENA_NEW(mem, pool_helper, (size_t)threads);
+  p->stretches = ARENA_NEW(mem, pool_stretch, (size_t)threads);
   sigset_t all, old;
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &old);
@@ -146,6 +156,40 @@ void pool_run(pool *p, size_t items, pool_work work, void *context) {
   begin_round(p, items, work, context);
   drain(p, 0);
   pool_wait(p);
+}
+
+// What pool_run_near was called with.
+typedef struct near_items {
+  pool *owner;
+  pool_work work;
+  void *context;
+} near_items;
+
+// Whoever comes, whatever the item: its own stretch, then those after it.
+static void run_stretches(void *context, size_t item, int worker) {
+  (void)item;
+  const near_items *to = context;
+  int n = pool_threads(to->owner);
+  for (int k = 0; k < n; k++) {
+    pool_stretch *s = &to->owner->stretches[(worker + k) % n];
+    size_t i;
+    while ((i = atomic_fetch_add(&s->next, 1)) < s->end)
+      to->work(to->context, i, worker);
+  }
+}
+
+void pool_run_near(pool *p, size_t items, pool_work work, void *context) {
+  size_t n = (size_t)pool_threads(p);
+  if (n == 1 || items <= 1) {
+    pool_run(p, items, work, context);
+    return;
+  }
+  for (size_t k = 0; k < n; k++) {
+    atomic_store(&p->stretches[k].next, items / n * k + items % n * k / n);
+    p->stretches[k].end = items / n * (k + 1) + items % n * (k + 1) / n;
+  }
+  near_items to = {p, work, context};
+  pool_run(p, n, run_stretches, &to);
 }
 
 void pool_start(pool *p, size_t items, pool_work work, void *context) {

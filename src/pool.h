@@ -26,7 +26,13 @@ void pool_free(pool *p);
 // alone.
 void pool_run(pool *p, size_t items, pool_work work, void *context);
 
-// The same without waiting: workers 1 and up do it while the caller goes on.
+// The same, but each worker begins with a stretch of items of its own, the same
+// in every call for as many, and helps out elsewhere only when it has done
+// them: for items whose neighbours share lines of the cache or large pages, and
+// calls that come back to what an earlier one wrote.
+void pool_run_near(pool *p, size_t items, pool_work work, void *context);
+
+// pool_run without waiting: workers 1 and up do it while the caller goes on.
 // A pool of one does it all before it returns.  Nothing else may be started
 // until pool_done has said true or pool_wait has returned.
 void pool_start(pool *p, size_t items, pool_work work, void *context);

@@ -194,7 +194,7 @@ const wide_cost *wide_costs_of(const bvh *b, arena *mem, pool *threads) {
   job.all = aabb_half_area((aabb){b->nodes[0].lo, b->nodes[0].hi});
   job.costs = ARENA_NEW(mem, wide_cost, b->node_count);
   find_parts(&job, &scratch);
-  pool_run(threads, job.part_count, cost_part, &job);
+  pool_run_near(threads, job.part_count, cost_part, &job);
   for (uint32_t i = job.item_count; i-- > 0;) {
     cost_item *it = &job.items[i];
     if (it->first == 0) continue;

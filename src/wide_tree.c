@@ -251,7 +251,7 @@ void wide_tree_build(wide_tree *out, const bvh *b, arena *mem, pool *threads) {
   out->triangle_count = b->refs;
   wide_tree_room(out, mem);
   write_above(&c);
-  pool_run(threads, c.part_count, write_part, &c);
+  pool_run_near(threads, c.part_count, write_part, &c);
   pool_run(threads, (b->bundle_count + BUNDLES - 1) / BUNDLES, write_bundles,
            &c);
   for (uint32_t i = 0; i < c.part_count; i++)

@@ -31,10 +31,11 @@ static void count_item(void *context, size_t item, int worker) {
   if (worker < 0 || worker >= t->threads) atomic_fetch_add(&t->strange, 1);
 }
 
+typedef void (*run_function)(pool *, size_t, pool_work, void *);
+
 // Every item is done exactly once, by a worker of the pool, in every one of
 // many rounds, for 1, 2 and 7 threads and without a pool.
-static void every_item_is_done_once(void **state) {
-  (void)state;
+static void done_once_by(run_function run) {
   static const int THREADS[] = {0, 1, 2, 7};
   int rounds = getenv("FACET_QUICK") == NULL ? 200 : 20;
   for (int k = 0; k < 4; k++) {
@@ -44,15 +45,25 @@ static void every_item_is_done_once(void **state) {
     memset(&t, 0, sizeof t);
     t.threads = pool_threads(p);
     for (int round = 0; round < rounds; round++)
-      pool_run(p, (size_t)(round % 5 == 0 ? 1 : ITEMS), count_item, &t);
+      run(p, (size_t)(round % 5 == 0 ? 1 : ITEMS), count_item, &t);
     for (int i = 1; i < ITEMS; i++)
       assert_int_equal(t.done[i], rounds - (rounds + 4) / 5);
     assert_int_equal(t.done[0], rounds);
     assert_int_equal(t.strange, 0);
-    pool_run(p, 0, count_item, &t);
+    run(p, 0, count_item, &t);
     pool_free(p);
     arena_free(&mem);
   }
+}
+
+static void every_item_is_done_once(void **state) {
+  (void)state;
+  done_once_by(pool_run);
+}
+
+static void every_near_item_is_done_once(void **state) {
+  (void)state;
+  done_once_by(pool_run_near);
 }
 
 static void square_item(void *context, size_t item, int worker) {
@@ -203,6 +214,7 @@ static int remove_root(void **state) {
 int main(void) {
   const struct CMUnitTest tests[] = {
       cmocka_unit_test(every_item_is_done_once),
+      cmocka_unit_test(every_near_item_is_done_once),
       cmocka_unit_test(results_are_there_on_return),
       cmocka_unit_test(thread_counts_are_kept_sane),
       cmocka_unit_test(slurm_limits_threads),
