@@ -12,18 +12,19 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <unistd.h>
 
 // Small requests share a block of this many bytes; larger ones get their own.
 enum { BLOCK_BYTES = 1 << 16 };
 
-// From here on large pages are worth asking for.
-enum { LARGE_BYTES = 1 << 21 };
+// A large page, and how much of one must be used for it to cost less than small
+// pages.
+enum { LARGE_PAGE = 1 << 21, LARGE_WORTH = LARGE_PAGE / 2 };
 
 // The bytes follow the header; `used` counts them.
 struct arena_block {
   arena_block *next;
   size_t used, size;
+  void *memory;  // that it lies in
   max_align_t bytes[];
 };
 
@@ -37,15 +38,35 @@ static _Noreturn void out_of_memory(size_t n, size_t size) {
 // when they are first touched, and fewer addresses to look up ever after.
 static void ask_large_pages(void *p, size_t bytes) {
 #ifdef MADV_HUGEPAGE
-  if (bytes < LARGE_BYTES) return;
-  uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE);
-  uintptr_t from = ((uintptr_t)p + page - 1) / page * page;
-  uintptr_t to = ((uintptr_t)p + bytes) / page * page;
-  madvise((void *)from, to - from, MADV_HUGEPAGE);
+  madvise(p, bytes, MADV_HUGEPAGE);
 #else
   (void)p;
   (void)bytes;
 #endif
+}
+
+// The bytes of so many that are worth large pages, in whole ones.
+static size_t large_bytes(size_t bytes) {
+  size_t rest = bytes % LARGE_PAGE;
+  return bytes - rest + (rest >= LARGE_WORTH ? LARGE_PAGE : 0);
+}
+
+// Zeroed, or NULL.  A large page begins where its address is a multiple of its
+// size, and so does a block that has some.
+static arena_block *new_block(size_t room) {
+  size_t bytes = sizeof(arena_block) + room, large = large_bytes(bytes);
+  size_t most = bytes > large ? bytes : large;
+  char *memory = calloc(1, most + (large > 0 ? LARGE_PAGE : 0));
+  if (memory == NULL) return NULL;
+  size_t into = 0;
+  if (large > 0) {
+    into = LARGE_PAGE - (uintptr_t)memory % LARGE_PAGE;
+    ask_large_pages(memory + into, large);
+  }
+  arena_block *block = (void *)(memory + into);
+  block->size = room;
+  block->memory = memory;
+  return block;
 }
 
 void *arena_alloc(arena *a, size_t n, size_t size) {
@@ -56,10 +77,8 @@ void *arena_alloc(arena *a, size_t n, size_t size) {
   if (block == NULL || block->size - block->used < bytes) {
     bool own = bytes > BLOCK_BYTES / 4;
     size_t room = own ? bytes : BLOCK_BYTES;
-    block = calloc(1, sizeof *block + room);
+    block = new_block(room);
     if (block == NULL) out_of_memory(n, size);
-    ask_large_pages(block, room);
-    block->size = room;
     if (own && a->top != NULL) {
       // Behind the top, which still has room for small requests.
       block->next = a->top->next;
@@ -77,7 +96,7 @@ void *arena_alloc(arena *a, size_t n, size_t size) {
 void arena_free(arena *a) {
   for (arena_block *b = a->top, *next; b != NULL; b = next) {
     next = b->next;
-    free(b);
+    free(b->memory);
   }
   *a = (arena){0};
 }
