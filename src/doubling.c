@@ -53,24 +53,47 @@ static uint32_t power_below(uint32_t n) {
   return p;
 }
 
+// Pixels that have as many samples, from i on, n at most.
+static size_t alike(const film *f, size_t i, size_t n) {
+  size_t some = 1;
+  while (some < n && f->count[i + some] == f->count[i])
+    some++;
+  return some;
+}
+
 // The means of the first and the second half of the first 2^k samples, and the
-// variance of one sample.
-static bool doubling_pixel(const void *self, size_t i, two_means_pixel *out) {
-  const doubling *d = self;
+// variance of one sample, of pixels that have as many: channel after channel.
+static void run_alike(const doubling *d, size_t i, size_t pixels,
+                      const two_means_run *out) {
   uint32_t n = d->all->count[i], m = power_below(n);
-  if (n < 2) return false;
-  vec3 whole = n == m ? sum_of(d->all, i) : d->marks.whole[i];
-  vec3 half = n == m ? d->marks.whole[i] : d->marks.half[i];
-  float w[3] = {whole.x, whole.y, whole.z}, h[3] = {half.x, half.y, half.z};
   double of_half = 2.0 / m, of_all = 1.0 / n, of_rest = 1.0 / (n - 1);
-  for (int c = 0; c < 3; c++) {
-    double sum = d->all->sum[i][c];
-    double spread = d->all->square[i][c] - sum * sum * of_all;
-    out->other[c] = spread > 0 ? spread * of_rest : 0;
-    out->a[c] = (double)h[c] * of_half;
-    out->b[c] = (double)(w[c] - h[c]) * of_half;
+  const double *sum = d->all->sum[i], *square = d->all->square[i];
+  const float *whole = (const float *)&d->marks.whole[i];
+  const float *half = (const float *)&d->marks.half[i];
+  double *restrict a = out->a, *restrict b = out->b,
+                   *restrict other = out->other;
+  for (size_t k = 0; k < 3 * pixels; k++) {
+    float w = n == m ? (float)sum[k] : whole[k];
+    float h = n == m ? whole[k] : half[k];
+    double spread = square[k] - sum[k] * sum[k] * of_all;
+    other[k] = spread > 0 ? spread * of_rest : 0;
+    a[k] = (double)h * of_half;
+    b[k] = (double)(w - h) * of_half;
   }
-  return true;
+}
+
+static void doubling_run(const void *self, size_t i, int n,
+                         const two_means_run *out) {
+  const doubling *d = self;
+  size_t some;
+  for (size_t k = 0; k < (size_t)n; k += some) {
+    some = alike(d->all, i + k, (size_t)n - k);
+    bool has = d->all->count[i + k] > 1;
+    two_means_run to = {out->a + 3 * k, out->b + 3 * k, out->other + 3 * k,
+                        NULL};
+    if (has) run_alike(d, i + k, some, &to);
+    memset(out->has + k, has, some);
+  }
 }
 
 // The rate r at which variance falls by doubling, if it always was the same,
@@ -95,7 +118,7 @@ static double doubling_error(void *self, pool *threads) {
   const doubling *d = self;
   uint32_t n = d->all->count[0], m = n > 0 ? power_below(n) : 0;
   if (m < 2) return 0;
-  two_means t = {d->all->width, d->all->height, d, doubling_pixel};
+  two_means t = {d->all->width, d->all->height, d, doubling_run};
   two_means_sums s = two_means_measure(&t, NULL, threads);
   if (!(s.other > 0)) return 0;
   int k = 0;

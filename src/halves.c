@@ -86,22 +86,24 @@ void halves_means(const halves *h, size_t i, int channel, double out[2]) {
   }
 }
 
-static bool halves_pixel(const void *self, size_t i, two_means_pixel *out) {
+static void halves_run(const void *self, size_t i, int n,
+                       const two_means_run *out) {
   const halves *h = self;
-  if (h->half[0].count[i] == 0 || h->half[1].count[i] == 0) return false;
-  for (int c = 0; c < 3; c++) {
-    double m[2];
-    halves_means(h, i, c, m);
-    out->a[c] = m[0];
-    out->b[c] = m[1];
+  for (size_t k = 0; k < (size_t)n; k++) {
+    out->has[k] = h->half[0].count[i + k] > 0 && h->half[1].count[i + k] > 0;
+    for (int c = 0; c < 3; c++) {
+      double m[2];
+      halves_means(h, i + k, c, m);
+      out->a[3 * k + (size_t)c] = m[0];
+      out->b[3 * k + (size_t)c] = m[1];
+    }
   }
-  return true;
 }
 
 // The root's relative error is half of that of its square; and what is printed
 // misses what is by 4 / 3 as much variance as its own.
 halves_estimate halves_error(const halves *h, double *terms, pool *threads) {
-  two_means t = {h->half[0].width, h->half[0].height, h, halves_pixel};
+  two_means t = {h->half[0].width, h->half[0].height, h, halves_run};
   two_means_sums s = two_means_measure(&t, terms, threads);
   if (!(s.square > 0)) return (halves_estimate){0, 0};
   return (halves_estimate){sqrt(s.square), s.doubt / s.square / sqrt(3)};

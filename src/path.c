@@ -379,8 +379,7 @@ static void path_radiance(const void *self, const path_start *starts, size_t n,
     return;
   }
   walk(w, starts, n);
-  for (size_t i = 0; i < n; i++)
-    out[i] = wave_take(w, i);
+  wave_take_all(w, n, out);
 }
 
 static void *path_room(const void *self, arena *mem) {

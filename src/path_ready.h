@@ -66,6 +66,7 @@ typedef struct ready_job {
   const light_set *lights;
   const path_plain *plain;  // by material; NULL: all vertices are looked at
   uint32_t dimension;       // of the first number
+  uint32_t uses;            // bits of the numbers that count; 0: all
   const hit *hits;
   const ray *rays;
   const sampler *numbers;

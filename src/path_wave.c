@@ -2,8 +2,20 @@
 
 #include "path_wave.h"
 
+// Bits of the numbers that materials look at.
+static uint32_t uses_of(const path_plain *plain, size_t count) {
+  uint32_t choice = 1u << USE_LOBE, any = choice | 1u << USE_MATTER, uses = 0;
+  for (size_t i = 0; i < count && plain != NULL; i++) {
+    if (plain[i].kind == PLAIN_GLASS) uses |= choice;
+    if (plain[i].kind == PLAIN_NOT) uses |= any;
+  }
+  uint32_t always = 3u << USE_DIRECTION | 1u << USE_LIFE;
+  return always | (plain != NULL ? uses : any);
+}
+
 wave *wave_room(const path_tracer *by, arena *mem) {
-  const size_t n = INTEGRATOR_BATCH, m = n + n * by->questions;
+  bool asks = by->world->thorough || light_set_any(by->lights);
+  const size_t n = INTEGRATOR_BATCH, m = asks ? n + n * by->questions : 0;
   wave *w = ARENA_NEW(mem, wave, 1);
   w->paths = ARENA_NEW(mem, path, n);
   w->alive = ARENA_NEW(mem, uint32_t, n);
@@ -18,6 +30,8 @@ wave *wave_room(const path_tracer *by, arena *mem) {
   if (by->questions > 1 && by->sky != NULL)
     w->turns = ARENA_NEW(mem, path_ready, by->questions * (MET / LANES));
   w->plain = path_plains(by->world->scene, mem);
+  w->uses = uses_of(w->plain, by->world->scene->material_count);
+  if (asks) w->uses |= 3u << USE_LIGHT | 1u << USE_PICK;
   if (by->aim != NULL) w->aims = path_aims_room(mem);
   if (by->film != NULL) w->shares = ARENA_NEW(mem, path_shares, 1);
   return w;
@@ -81,11 +95,19 @@ static sampler_kind kind_of(const wave *w) {
   return even && kind == SAMPLER_SOBOL ? SAMPLER_TURNED : kind;
 }
 
-static void begin_path(wave *w, const path_start *starts, size_t i) {
+// Where a path was last is told by its next direction.
+static inline void begin_path(wave *w, const path_start *starts, size_t i) {
   const path_start *s = &starts[i];
-  w->paths[i] = (path){.throughput = vec3_all(1), .scale = 1, .segment = 1};
+  path *p = &w->paths[i];
+  p->sum = vec3_all(0);
+  p->throughput = vec3_all(1);
+  p->pdf = 0;
+  p->scale = 1;
+  p->segment = 1;
+  p->inside = 0;
+  p->trail = (path_trail){.cell = NULL};
   if (s->pixel == GROUP_NO_PIXEL) return;
-  w->paths[i].numbers = sampler_of(w->kind, w->by->seed, s->pixel, s->sample);
+  p->numbers = sampler_of(w->kind, w->by->seed, s->pixel, s->sample);
   w->alive[w->count] = (uint32_t)i;
   w->rays[w->count++] = s->ray;
 }
@@ -110,14 +132,15 @@ static void add(path *p, float weight, vec3 radiance) {
   p->sum = vec3_mad(p->sum, weight, vec3_mul(p->throughput, radiance));
 }
 
+static float weight_alone(const wave *w, const path *p) {
+  if (p->pdf > 0 || w->aims == NULL) return 1;
+  return path_trail_weight(&p->trail, w->steps);
+}
+
 // What path p finds of the sky.
 static void meet_sky(const wave *w, path *p, const env_place *at) {
   const env *sky = &w->by->world->scene->env;
-  float weight = p->pdf > 0 ? 1 : path_trail_weight(&p->trail, w->steps);
-  if (w->even) {
-    if (vec3_finite(at->d)) add(p, weight, w->sky);
-    return;
-  }
+  float weight = weight_alone(w, p);
   vec3 radiance = env_radiance_at(sky, at);
   if (!(vec3_peak(radiance) > 0)) return;
   if (p->pdf > 0 && w->lights) {
@@ -130,11 +153,14 @@ static void meet_sky(const wave *w, path *p, const env_place *at) {
 
 size_t wave_miss(const wave *w, size_t n, uint32_t which, const ray *r) {
   missed *m = w->missed;
+  path *p = &w->paths[which];
+  if (w->even) {
+    if (vec3_finite(r->d)) add(p, weight_alone(w, p), w->sky);
+    return n;
+  }
   m->which[n] = which;
   if (w->looks) {
     m->all.d[n] = r->d;
-  } else if (w->even) {
-    m->at[n].d = r->d;
   } else {
     m->at[n] = env_expect(&w->by->world->scene->env, vec3_unit(r->d));
     if (w->lights) light_env_expect(&w->by->lights->env, m->at[n].uv);
@@ -210,6 +236,7 @@ void wave_vertices(const wave *w, size_t n) {
                    .lights = w->lit ? by->lights : NULL,
                    .plain = lanes_will_do(w) ? w->plain : NULL,
                    .dimension = 2 + USES * w->steps,
+                   .uses = w->uses,
                    .hits = m->hits,
                    .rays = m->rays,
                    .numbers = m->numbers,
@@ -251,4 +278,9 @@ vec3 wave_take(wave *w, size_t i) {
   w->paths[i].sum = vec3_all(0);
   if (w->aims == NULL) return sum;
   return vec3_add(sum, path_aims_take(w->aims, i));
+}
+
+void wave_take_all(wave *w, size_t n, vec3 *out) {
+  for (size_t i = 0; i < n; i++)
+    out[i] = w->aims != NULL ? wave_take(w, i) : w->paths[i].sum;
 }

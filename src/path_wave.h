@@ -63,6 +63,7 @@ typedef struct wave {
   bool even;            // a constant sky, for which no light is asked
   vec3 sky;
   sampler_kind kind;
+  uint32_t uses;            // bits of the numbers that count at vertices
   const path_plain *plain;  // by material, or NULL
   path *paths;
   uint32_t *alive;
@@ -72,8 +73,7 @@ typedef struct wave {
   shadow *shadows;
   bool *blocked;
   met *met;
-  path_ready *turns;  // of met, of one question after the other, if there are
-                      // several
+  path_ready *turns;  // of met, of one question after the other
   missed *missed;
   path_aims *aims;      // NULL: no ray is aimed
   path_shares *shares;  // NULL: nothing is shared
@@ -113,7 +113,8 @@ stop wave_turn(const wave *w, const stop *s, uint32_t i);
 // Ask lights at once for those of them that are matt, but for plain ones.
 void wave_ask(const wave *w, size_t n);
 
-// What path number i has brought since it was last asked.
+// What path number i has brought since it was last asked; the first n paths.
 vec3 wave_take(wave *w, size_t i);
+void wave_take_all(wave *w, size_t n, vec3 *out);
 
 #endif

@@ -42,7 +42,7 @@ static inline void ready_draw(ready_work *w, const ready_job *j, size_t from,
                               int n) {
   sampler_kind kind = j->numbers[from].kind;
   if (kind != SAMPLER_RANDOM) {
-    ready_numbers(w, kind, j->dimension);
+    ready_numbers(w, kind, j->dimension, j->uses != 0 ? j->uses : UINT32_MAX);
     return;
   }
   for (int i = 0; i < n; i++) {

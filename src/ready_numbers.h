@@ -91,19 +91,22 @@ SIMD void sixteen_number(const sixteen_keys *k, uint32_t dimension,
     out[i] = (float)bits[i] * 0x1p-24f;
 }
 
+// Those of bits `uses`; the others are as they were.
 static inline void ready_numbers(ready_work *w, sampler_kind kind,
-                                 uint32_t dimension) {
+                                 uint32_t dimension, uint32_t uses) {
   sixteen_keys k = {.kind = kind};
   memcpy(&k.lo, w->key_lo, sizeof k.lo);
   memcpy(&k.hi, w->key_hi, sizeof k.hi);
   memcpy(&k.index, w->index, sizeof k.index);
   for (int i = 0; i < LANES; i++)
     k.bits |= w->index[i];
-  sixteen index;
+  sixteen index = {0};
+  uint32_t block = UINT32_MAX;
   for (uint32_t i = 0; i < USES; i++) {
     uint32_t d = dimension + i;
-    if (i == 0 || (d >= SAMPLER_JOINT && d % SAMPLER_BLOCK == 0))
-      sixteen_shuffle(&k, d, &index);
+    if ((uses >> i & 1) == 0) continue;
+    if (d / SAMPLER_BLOCK != block) sixteen_shuffle(&k, d, &index);
+    block = d / SAMPLER_BLOCK;
     sixteen_number(&k, d, &index, w->r.u[i]);
   }
 }

@@ -15,22 +15,22 @@ enum { REACH = 1 };
 // are seen, too.  All are constants, for vector instructions.
 enum { PATCH = 32, SEEN = PATCH + 2 * REACH };
 
-// One channel of the pixels that are seen; 0 where there is none.
-typedef struct channel {
-  double mean[SEEN][SEEN];    // (a + b) / 2
-  double mean2[SEEN][SEEN];   // its square
-  double square[SEEN][SEEN];  // ((a - b) / 2)^2
-  double other[SEEN][SEEN];
-} channel;
+// A row is as wide as its pixels have channels.
+enum { NEXT = 3, WIDE = NEXT * PATCH, SEEN_WIDE = NEXT * SEEN };
 
 // The patch whose first pixel is (x, y), with as many rows; row r and column k
-// of what is seen are the pixel (x + k - REACH, y + r - REACH).
+// of what is seen are the pixel (x + k - REACH, y + r - REACH).  Channel by
+// channel, and 0 where there is no pixel:
 typedef struct patch {
   int x, y, rows;
-  double there[SEEN][SEEN];  // 1 where there is a pixel
-  channel seen[3];
+  bool whole;                      // a pixel is everywhere
+  double there[SEEN][SEEN_WIDE];   // 1 where there is one
+  double mean[SEEN][SEEN_WIDE];    // (a + b) / 2
+  double mean2[SEEN][SEEN_WIDE];   // its square
+  double square[SEEN][SEEN_WIDE];  // ((a - b) / 2)^2
+  double other[SEEN][SEEN_WIDE];
   // Sums over channels: of squares, and of what is averaged like them.
-  double terms[PATCH][PATCH], other[PATCH][PATCH];
+  double terms[PATCH][PATCH], others[PATCH][PATCH];
 } patch;
 
 static double more(double a, double b) {
@@ -41,48 +41,46 @@ static double more(double a, double b) {
 // themselves.  First columns are added up, with and without the row, then three
 // of them.  Nothing is taken off again, where one pixel may be a million times
 // the others.
-static void sum_others(const double (*seen)[SEEN], int row,
+static void sum_others(double (*seen)[SEEN_WIDE], int row,
                        double *restrict out) {
-  double own[SEEN], column[SEEN];
+  double own[SEEN_WIDE], column[SEEN_WIDE];
   const double *above = seen[row - 1], *at = seen[row], *below = seen[row + 1];
-  for (int k = 0; k < SEEN; k++) {
+  for (int k = 0; k < SEEN_WIDE; k++) {
     own[k] = above[k] + below[k];
     column[k] = own[k] + at[k];
   }
-  for (int k = 0; k < PATCH; k++)
-    out[k] = column[k] + own[k + 1] + column[k + 2];
+  for (int k = 0; k < WIDE; k++)
+    out[k] = column[k] + own[k + NEXT] + column[k + 2 * NEXT];
 }
 
 // The others of the pixels of a row: 1 / number, 1 / (number - 1); where there
 // are not two both are 0, and lone is 1.
 typedef struct others {
-  double each[PATCH], rest[PATCH], lone[PATCH];
+  double each[WIDE], rest[WIDE], lone[WIDE];
 } others;
 
-static void count_others(const patch *p, int row, others *restrict out) {
-  double n[PATCH];
+static void count_others(patch *p, int row, others *restrict out) {
+  double n[WIDE];
   sum_others(p->there, row, n);
-  for (int k = 0; k < PATCH; k++) {
+  for (int k = 0; k < WIDE; k++) {
     out->each[k] = n[k] > 1 ? 1 / n[k] : 0;
     out->rest[k] = n[k] > 1 ? 1 / (n[k] - 1) : 0;
     out->lone[k] = n[k] > 1 ? 0 : 1;
   }
 }
 
-// Add a channel to the terms of a row.  Radiance is as a pixel and its
-// neighbours let expect it: the neighbours have a mean, vary around it by
-// themselves (spread), and all are uncertain.  The less certain the pixel is,
-// the more its neighbours count.  Who has not two of them has only itself.
-// Source: James and Stein, 1961.
-static void add_terms(patch *p, const channel *c, int row,
-                      const others *restrict n) {
-  double mean_sum[PATCH], mean2_sum[PATCH], square_sum[PATCH], shares[PATCH];
-  sum_others(c->mean, row, mean_sum);
-  sum_others(c->mean2, row, mean2_sum);
-  sum_others(c->square, row, square_sum);
-  const double *means = &c->mean[row][REACH], *means2 = &c->mean2[row][REACH];
-  const double *squares = &c->square[row][REACH];
-  for (int k = 0; k < PATCH; k++) {
+// The terms of a row.  Radiance is as a pixel and its neighbours let expect it:
+// the neighbours have a mean, vary around it by themselves (spread), and all
+// are uncertain.  The less certain the pixel is, the more its neighbours count.
+// Who has not two of them has only itself.  Source: James and Stein, 1961.
+static void find_terms(patch *p, int row, const others *restrict n) {
+  double mean_sum[WIDE], mean2_sum[WIDE], square_sum[WIDE], shares[WIDE];
+  sum_others(p->mean, row, mean_sum);
+  sum_others(p->mean2, row, mean2_sum);
+  sum_others(p->square, row, square_sum);
+  const double *means = &p->mean[row][NEXT], *means2 = &p->mean2[row][NEXT];
+  const double *squares = &p->square[row][NEXT], *other = &p->other[row][NEXT];
+  for (int k = 0; k < WIDE; k++) {
     double each = n->each[k];
     double around = mean_sum[k] * each, noise = square_sum[k] * each;
     double vary = (mean2_sum[k] - mean_sum[k] * around) * n->rest[k];
@@ -93,47 +91,70 @@ static void add_terms(patch *p, const channel *c, int row,
     shares[k] = 1 / (likely * likely + lone + 0.01);
   }
   double *restrict terms = p->terms[row - REACH];
-  double *restrict other = p->other[row - REACH];
+  double *restrict rests = p->others[row - REACH];
   for (int k = 0; k < PATCH; k++) {
-    terms[k] += shares[k] * squares[k];
-    other[k] += shares[k] * c->other[row][k + REACH];
+    const double *s = &shares[NEXT * k], *square = &squares[NEXT * k];
+    const double *rest = &other[NEXT * k];
+    terms[k] = s[0] * square[0] + s[1] * square[1] + s[2] * square[2];
+    rests[k] = s[0] * rest[0] + s[1] * rest[1] + s[2] * rest[2];
   }
 }
 
-// Whether there is one.
-static bool see_pixel(patch *p, const two_means *t, int row, int column) {
-  int x = p->x + column - REACH, y = p->y + row - REACH;
-  size_t i = (size_t)y * (size_t)t->width + (size_t)x;
-  two_means_pixel q = {{0}, {0}, {0}};
-  bool there = x >= 0 && x < t->width && y >= 0 && y < t->height &&
-               t->pixel(t->self, i, &q);
-  p->there[row][column] = there;
-  for (int c = 0; c < 3; c++) {
-    channel *of = &p->seen[c];
-    double mean = (q.a[c] + q.b[c]) / 2, half = (q.a[c] - q.b[c]) / 2;
-    of->mean[row][column] = there ? mean : 0;
-    of->mean2[row][column] = there ? mean * mean : 0;
-    of->square[row][column] = there ? half * half : 0;
-    of->other[row][column] = there ? q.other[c] : 0;
-  }
-  return there;
+// What a row of the picture knows of what is seen of it.
+typedef struct row_seen {
+  double a[SEEN_WIDE], b[SEEN_WIDE], other[SEEN_WIDE];
+  bool has[SEEN];
+} row_seen;
+
+// Ask for row number `row`.
+static void ask_row(const patch *p, const two_means *t, int row, row_seen *q) {
+  int left = p->x - REACH, x0 = left < 0 ? 0 : left, y = p->y + row - REACH;
+  int x1 = left + SEEN < t->width ? left + SEEN : t->width;
+  memset(q, 0, sizeof *q);
+  if (y < 0 || y >= t->height) return;
+  size_t i = (size_t)y * (size_t)t->width + (size_t)x0;
+  size_t k = (size_t)(x0 - left), at = NEXT * k;
+  two_means_run out = {q->a + at, q->b + at, q->other + at, q->has + k};
+  t->run(t->self, i, x1 - x0, &out);
 }
 
-// Whether there is any.
-static bool see_pixels(patch *p, const two_means *t) {
-  bool any = false;
-  for (int row = 0; row < p->rows + 2 * REACH; row++)
-    for (int k = 0; k < SEEN; k++)
-      any |= see_pixel(p, t, row, k);
-  return any;
+// Take it down; how many pixels there are.
+static int see_row(patch *p, int row, const row_seen *q) {
+  double *there = p->there[row];
+  int count = 0;
+  for (int k = 0; k < SEEN; k++) {
+    count += q->has[k];
+    for (int c = 0; c < NEXT; c++)
+      there[NEXT * k + c] = q->has[k] ? 1 : 0;
+  }
+  for (int k = 0; k < SEEN_WIDE; k++) {
+    double a = there[k] > 0 ? q->a[k] : 0, b = there[k] > 0 ? q->b[k] : 0;
+    double mean = (a + b) / 2, half = (a - b) / 2;
+    p->mean[row][k] = mean;
+    p->mean2[row][k] = mean * mean;
+    p->square[row][k] = half * half;
+    p->other[row][k] = there[k] > 0 ? q->other[k] : 0;
+  }
+  return count;
+}
+
+// See the pixels; how many there are.
+static int see_pixels(patch *p, const two_means *t) {
+  int count = 0;
+  row_seen q;
+  for (int row = 0; row < p->rows + 2 * REACH; row++) {
+    ask_row(p, t, row, &q);
+    count += see_row(p, row, &q);
+  }
+  p->whole = count == (p->rows + 2 * REACH) * SEEN;
+  return count;
 }
 
 static void measure_patch(patch *p) {
+  others n;
   for (int row = REACH; row < p->rows + REACH; row++) {
-    others n;
-    count_others(p, row, &n);
-    for (int c = 0; c < 3; c++)
-      add_terms(p, &p->seen[c], row, &n);
+    if (row == REACH || !p->whole) count_others(p, row, &n);
+    find_terms(p, row, &n);
   }
 }
 
@@ -149,8 +170,8 @@ static void sum_patch(const patch *p, patch_sums *out) {
       double term = p->terms[row][k];
       out->sums.square += term;
       out->sums.doubt += term * term;
-      out->sums.other += p->other[row][k];
-      out->pixels += p->there[row + REACH][k + REACH];
+      out->sums.other += p->others[row][k];
+      out->pixels += p->there[row + REACH][NEXT * (k + REACH)];
     }
 }
 
@@ -183,8 +204,8 @@ static void measure_item(void *context, size_t item, int worker) {
   p->y = (int)item / across * PATCH;
   p->rows = t->height - p->y < PATCH ? t->height - p->y : PATCH;
   memset(p->terms, 0, sizeof p->terms);
-  memset(p->other, 0, sizeof p->other);
-  if (see_pixels(p, t)) measure_patch(p);
+  memset(p->others, 0, sizeof p->others);
+  if (see_pixels(p, t) > 0) measure_patch(p);
   sum_patch(p, &m->out[item]);
   if (m->terms != NULL) copy_terms(p, t, m->terms);
 }

@@ -9,18 +9,19 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-// A pixel, by channel: two means with the same expectation and errors that
-// know nothing of each other; and something else to be averaged like the
-// error.
-typedef struct two_means_pixel {
-  double a[3], b[3], other[3];
-} two_means_pixel;
+// Pixels of a row, three channels of one after the other: two means with the
+// same expectation and errors that know nothing of each other, and something
+// else to be averaged like the error.
+typedef struct two_means_run {
+  double *a, *b, *other;  // all 0 before
+  bool *has;              // two means; else nothing else counts
+} two_means_run;
 
-// Whoever knows the pixels, row by row; false where one has no two means yet.
+// Whoever knows the pixels: n of a row, from pixel i on.
 typedef struct two_means {
   int width, height;
   const void *self;
-  bool (*pixel)(const void *self, size_t i, two_means_pixel *out);
+  void (*run)(const void *self, size_t i, int n, const two_means_run *out);
 } two_means;
 
 // Averages over pixels and channels of x / (radiance^2 + 0.01).

@@ -9,8 +9,14 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
+
+// What is known of a pixel.
+typedef struct two_means_pixel {
+  double a[3], b[3], other[3];
+} two_means_pixel;
 
 // Two means, one of which is wrong here and there; some pixels have none.  The
 // last pixel has nobody near.
@@ -21,8 +27,7 @@ static double radiance(size_t i) {
   return (x + y > 40 ? 3 : 0.2) * (0.3 + (double)y / RAGGED_HEIGHT);
 }
 
-static bool two_pixels(const void *self, size_t i, two_means_pixel *out) {
-  (void)self;
+static bool two_pixels(size_t i, two_means_pixel *out) {
   rng r = rng_of(7, i, 0);
   for (int c = 0; c < 3; c++) {
     out->a[c] = radiance(i) * (double)rng_next(&r);
@@ -35,13 +40,30 @@ static bool two_pixels(const void *self, size_t i, two_means_pixel *out) {
   return i % 7 != 3 || i == RAGGED - 1;
 }
 
+static void put_pixel(const two_means_run *out, size_t k, bool has,
+                      const two_means_pixel *p) {
+  out->has[k] = has;
+  memcpy(out->a + 3 * k, p->a, sizeof p->a);
+  memcpy(out->b + 3 * k, p->b, sizeof p->b);
+  memcpy(out->other + 3 * k, p->other, sizeof p->other);
+}
+
+static void two_run(const void *self, size_t i, int n,
+                    const two_means_run *out) {
+  (void)self;
+  for (size_t k = 0; k < (size_t)n; k++) {
+    two_means_pixel p;
+    bool has = two_pixels(i + k, &p);
+    put_pixel(out, k, has, &p);
+  }
+}
+
 // The next pixel of the window around pixel i, from *at on.
 static bool next_near(size_t i, size_t *at, two_means_pixel *out) {
   int x = (int)(i % RAGGED_WIDTH), y = (int)(i / RAGGED_WIDTH);
   for (++*at; *at < RAGGED; ++*at) {
     int u = (int)(*at % RAGGED_WIDTH), v = (int)(*at / RAGGED_WIDTH);
-    if (abs(u - x) <= 1 && abs(v - y) <= 1 && two_pixels(NULL, *at, out))
-      return true;
+    if (abs(u - x) <= 1 && abs(v - y) <= 1 && two_pixels(*at, out)) return true;
   }
   return false;
 }
@@ -76,7 +98,7 @@ static double apart(double a, double b) {
 // 1 / (radiance^2 + 0.01), guessed as the book has it.
 static double share_of(size_t i, int c) {
   two_means_pixel p;
-  two_pixels(NULL, i, &p);
+  two_pixels(i, &p);
   double mu, squares, noise, m = middle(p.a[c], p.b[c]);
   double own = apart(p.a[c], p.b[c]);
   int n = of_others(&mu, i, c, middle);
@@ -93,14 +115,14 @@ static double share_of(size_t i, int c) {
 static void a_patch_is_its_pixels(void **state) {
   (void)state;
   arena mem = {0};
-  two_means t = {RAGGED_WIDTH, RAGGED_HEIGHT, NULL, two_pixels};
+  two_means t = {RAGGED_WIDTH, RAGGED_HEIGHT, NULL, two_run};
   double *terms = ARENA_NEW(&mem, double, RAGGED);
   two_means_sums is = {0, 0, 0}, alone = two_means_measure(&t, terms, NULL);
   two_means_pixel p;
   double n = 0;
   for (size_t i = 0; i < RAGGED; i++) {
     double term = 0;
-    for (int c = 0; c < 3 && two_pixels(NULL, i, &p); c++, n++) {
+    for (int c = 0; c < 3 && two_pixels(i, &p); c++, n++) {
       term += share_of(i, c) * apart(p.a[c], p.b[c]);
       is.other += share_of(i, c) * p.other[c];
     }
@@ -156,8 +178,17 @@ static bool lamp_pixel(const void *self, size_t i, two_means_pixel *out) {
   return true;
 }
 
+static void lamp_run(const void *self, size_t i, int n,
+                     const two_means_run *out) {
+  for (size_t k = 0; k < (size_t)n; k++) {
+    two_means_pixel p = {{0}, {0}, {0}};
+    bool has = lamp_pixel(self, i + k, &p);
+    put_pixel(out, k, has, &p);
+  }
+}
+
 static double lamp_error(const lamp *l) {
-  two_means t = {STAGE, STAGE, l, lamp_pixel};
+  two_means t = {STAGE, STAGE, l, lamp_run};
   return sqrt(two_means_measure(&t, NULL, NULL).square);
 }
 
