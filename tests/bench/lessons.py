@@ -18,12 +18,19 @@ import subprocess
 import peers
 
 
+def processor_seconds():
+    """Of the processes that have ended.  Linux knows their sum well, but of a
+    short process hardly what was the system's."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def render(facet, path, integrator, spp, seed, out):
-    """The picture, and the processor's seconds in the program itself."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    """The picture, and what it took."""
+    before = processor_seconds()
     subprocess.run([facet, "render", path, "--engine", "path", "--integrator", integrator, "--spp", str(spp), "--seed",
                     str(seed), "--max-depth", str(peers.DEPTH), "-j", "1", "-q", "-o", out], check=True)
-    return peers.read_pfm(out), resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+    return peers.read_pfm(out), processor_seconds() - before
 
 
 def compare(name, options):
