@@ -683,6 +683,66 @@ static void draw_memory(output *o, stage *s, camera_view v, const char *file,
   publish_pair(o, file, parts, names, &truth, gain);
 }
 
+// A colour for each part of the lamp of a dim room: from red to blue across it,
+// greener upwards.
+static vec3 color_of_part(const light_parts *parts, uint32_t i) {
+  const light_triangle *t = &parts->of[i].shape;
+  vec3 at = vec3_mad(t->a, 1.0f / 3, vec3_add(t->ab, t->ac));
+  return (vec3){(1 - at.z) / 4, (at.y - 0.3f) / 2.5f, (at.z + 3) / 4};
+}
+
+// That of the part that a point of the lamp lies in, or nearly so.
+static vec3 color_of_lamp(const light_parts *parts, vec3 p) {
+  uint32_t best = 0;
+  float least = HUGE_VALF;
+  for (uint32_t i = 0; i < parts->count; i++) {
+    const light_triangle *t = &parts->of[i].shape;
+    vec3 middle = vec3_mad(t->a, 1.0f / 3, vec3_add(t->ab, t->ac));
+    float far = vec3_length(vec3_sub(middle, p));
+    if (far < least) least = far, best = i;
+  }
+  return color_of_part(parts, best);
+}
+
+// Whom a place asks: the mean colour of the parts by their probabilities, and
+// the probability that any is asked.
+static vec3 whom(const light_set *l, vec3 p, vec3 n, float *any) {
+  vec3 sum = vec3_all(0);
+  uint32_t key = light_memory_key(l->memory, p, n);
+  *any = 0;
+  for (uint32_t i = 0; i < l->parts.count; i++) {
+    float share = light_memory_share(l->memory, key, i);
+    sum = vec3_mad(sum, share, color_of_part(&l->parts, i));
+    *any += share;
+  }
+  return vec3_scale(sum, 1 / *any);
+}
+
+// What a memory of the lamp has learned in a dim room.
+static void draw_cells(output *o) {
+  stage *s = dim_room(o);
+  camera_view v = room_view();
+  path_tracer by = {.world = &s->world, .lights = &s->lights, .seed = 1};
+  path_film lesson = {&v, ROOM_WIDTH, ROOM_HEIGHT};
+  if (!path_learn(&s->lights, &by, &lesson, &o->mem, o->threads)) return;
+  image parts[2];
+  for (int i = 0; i < 2; i++)
+    parts[i] = image_new(&o->mem, ROOM_WIDTH, ROOM_HEIGHT);
+  for (int i = 0; i < ROOM_WIDTH * ROOM_HEIGHT; i++) {
+    float x = (float)(i % ROOM_WIDTH), y = (float)(i / ROOM_WIDTH), any = 1;
+    ray r = camera_ray(&v, x + 0.5f, y + 0.5f);
+    hit h;
+    if (!s->world.tracer.closest(s->world.tracer.tree, &r, &h)) continue;
+    vertex at = vertex_at(&s->scene, &h, r.d);
+    bool lamp = at.at.p.x < -2.5f;
+    vec3 c = lamp ? color_of_lamp(&s->lights.parts, at.at.p)
+                  : whom(&s->lights, at.at.p, at.ns, &any);
+    parts[0].pixels[i] = vec3_mad(vec3_all(-0.35f), 1.7f, c);
+    parts[1].pixels[i] = vec3_all(any * any);
+  }
+  publish(o->folder, "cells", row_of(&o->mem, parts, 2));
+}
+
 // The same time of paths that walk alone and of such that share.
 static void draw_neighbours(output *o) {
   stage *s = dim_room(o);
@@ -819,6 +879,7 @@ int main(int argc, char **argv) {
   draw_many(&o);
   draw_shadow(&o);
   draw_memory(&o, dim_room(&o), room_view(), "memory", 0.4f);
+  draw_cells(&o);
   draw_memory(&o, studio(&o), studio_view(), "memory-sky", 0.5f);
   draw_glass(&o);
   draw_neighbours(&o);
