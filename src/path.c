@@ -121,9 +121,11 @@ static bool is_matt(const vertex *v) {
   return matter_matt(&v->at) && vec3_dot(v->ns, v->wo) > 0;
 }
 
-// Remember from where a path leaves the first surface that it met.
+// Remember from where a path leaves the first surface that it met; what it
+// finds there is of the group's numbers.
 static void stand(const wave *w, const stop *s, const bsdf *b) {
   if (w->shares == NULL || w->steps > 0 || !is_matt(s->at)) return;
+  w->paths[s->which].numbers = w->met->common[s->at - w->met->at];
   w->shares->stand[s->which] =
       (share_stand){.from = surface_smooth_ray(&s->at->at, s->at->ng).o,
                     .n = s->at->ns,
@@ -276,7 +278,6 @@ static void step_some(wave *w, size_t n) {
 
 // One step of every path on its way.
 static void step_all(wave *w) {
-  met *m = w->met;
   tracer_closest_many(&w->by->world->tracer, w->rays,
                       w->steps > 0 ? w->left : NULL, w->hits, w->count);
   w->stats->rays += w->count;
@@ -287,11 +288,7 @@ static void step_all(wave *w) {
       lost = wave_miss(w, lost, w->alive[i], &w->rays[i]);
       continue;
     }
-    vertex_expect(w->by->world->scene, w->hits[i].triangle);
-    m->which[n] = w->alive[i];
-    m->numbers[n] = w->paths[w->alive[i]].numbers;
-    m->hits[n] = w->hits[i];
-    m->rays[n++] = w->rays[i];
+    wave_meet(w, n++, i);
     if (n < MET) continue;
     step_some(w, n);
     n = 0;

@@ -110,3 +110,16 @@ size_t path_groups_seat(path_groups *to, const path_film *film,
   start_others(to, film, by);
   return i;
 }
+
+// Other numbers than those of the pixels.
+#define GROUP_SEED UINT64_C(0x67726f7570)
+
+sampler path_groups_numbers(const path_groups *g, size_t i, sampler_kind kind,
+                            uint64_t seed) {
+  enum { COLOR_GROUPS = BLOCK_GROUPS / 2 };
+  uint64_t which = g->name[i / GROUP] >> 32;
+  uint32_t run = (uint32_t)g->name[i / GROUP] * COLOR_GROUPS;
+  run += (uint32_t)(which % COLOR_GROUPS);
+  return sampler_of(kind, seed ^ GROUP_SEED, which / COLOR_GROUPS,
+                    run * GROUP + (uint32_t)(i % GROUP));
+}

@@ -5,6 +5,7 @@
 
 #include "camera.h"
 #include "path_world.h"
+#include "sampler.h"
 
 // The film that the paths of pixels start from.
 typedef struct path_film {
@@ -12,9 +13,10 @@ typedef struct path_film {
   int width, height;
 } path_film;
 
-// So many pixels are a group, and so many groups share a block of pixels; a
-// tile of RENDER_TILE holds whole blocks.
-enum { GROUP = 8, BLOCK_GROUPS = 4, BLOCK_WIDTH = 8, BLOCK_HEIGHT = 4 };
+// So many pixels are a group, and so many groups share a block of pixels, half
+// of them either color of a chessboard; a tile of RENDER_TILE holds whole
+// blocks.
+enum { GROUP = 16, BLOCK_GROUPS = 4, BLOCK_WIDTH = 8, BLOCK_HEIGHT = 8 };
 
 // No such pixel, or nobody who asked for it.
 #define GROUP_NO_PIXEL UINT64_MAX
@@ -36,5 +38,11 @@ typedef struct path_groups {
 size_t path_groups_seat(path_groups *g, const path_film *film,
                         const integrator *by, const path_start *starts,
                         size_t n);
+
+// The numbers that member i of the groups has in common with the others: of one
+// sequence for all groups of a color in a block, in which those of each group
+// follow each other, and so are even.
+sampler path_groups_numbers(const path_groups *g, size_t i, sampler_kind kind,
+                            uint64_t seed);
 
 #endif

@@ -10,12 +10,21 @@ static void fetch_memory(const light_set *l, const vertex *at, size_t n) {
     light_memory_fetch(m, light_memory_key(m, at[i].at.p, at[i].ns));
 }
 
+void path_ready_draw(const ready_job *j, size_t i, float u[USES]) {
+  sampler_8(&j->numbers[i], j->dimension, u);
+  if (j->toward == NULL) return;
+  sampler s = j->toward[i];
+  sampler_at(&s, j->dimension + USE_DIRECTION);
+  u[USE_DIRECTION] = sampler_1(&s);
+  u[USE_DIRECTION + 1] = sampler_1(&s);
+}
+
 void path_ready_alone(const ready_job *j, size_t n) {
   for (size_t i = 0; i < n; i++) {
     path_ready *r = &j->ready[i / LANES];
     float u[USES];
     j->at[i] = vertex_at(j->scene, &j->hits[i], j->rays[i].d);
-    sampler_8(&j->numbers[i], j->dimension, u);
+    path_ready_draw(j, i, u);
     for (int k = 0; k < USES; k++)
       r->u[k][i % LANES] = u[k];
     r->matt[i % LANES] = r->plain[i % LANES] = r->held[i % LANES] = 0;

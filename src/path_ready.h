@@ -69,14 +69,15 @@ typedef struct ready_job {
   uint32_t uses;            // bits of the numbers that count; 0: all
   const hit *hits;
   const ray *rays;
-  const sampler *numbers;
-  vertex *at;         // complete, with the frame where it is matt
-  path_ready *ready;  // LANES vertices each
+  const sampler *numbers, *toward;  // those of directions; NULL: no others
+  vertex *at;                       // complete, with the frame where it is matt
+  path_ready *ready;                // LANES vertices each
 } ready_job;
 
 typedef void ready_function(const ready_job *j, size_t n);
 
-// One by one, and none of them matt.
+// The numbers of vertex i; all vertices one by one, and none of them matt.
+void path_ready_draw(const ready_job *j, size_t i, float u[USES]);
 void path_ready_alone(const ready_job *j, size_t n);
 
 // Where the samples of a row begin, by the Sobol' sequence of that seed.

@@ -229,6 +229,29 @@ static void ask_all(const wave *w, size_t n) {
   }
 }
 
+// Whether all of a triangle is matt.
+static bool is_matt(const scene *s, uint32_t triangle) {
+  surface any = {.material = NULL};
+  if (s->material_of != NULL)
+    any.material = &s->materials[s->material_of[triangle]];
+  return matter_matt(&any);
+}
+
+void wave_meet(const wave *w, size_t n, size_t i) {
+  const scene *s = w->by->world->scene;
+  uint32_t which = w->alive[i], triangle = w->hits[i].triangle;
+  met *m = w->met;
+  vertex_expect(s, triangle);
+  m->which[n] = which;
+  m->numbers[n] = w->paths[which].numbers;
+  m->hits[n] = w->hits[i];
+  m->rays[n] = w->rays[i];
+  m->common[n] = m->numbers[n];
+  if (w->shares == NULL || w->steps > 0 || !is_matt(s, triangle)) return;
+  m->common[n] =
+      path_groups_numbers(&w->shares->groups, which, w->kind, w->by->seed);
+}
+
 void wave_vertices(const wave *w, size_t n) {
   const path_tracer *by = w->by;
   met *m = w->met;
@@ -240,6 +263,8 @@ void wave_vertices(const wave *w, size_t n) {
                    .hits = m->hits,
                    .rays = m->rays,
                    .numbers = m->numbers,
+                   .toward =
+                       w->shares != NULL && w->steps == 0 ? m->common : NULL,
                    .at = m->at,
                    .ready = m->ready};
   (by->ready != NULL ? by->ready : path_ready_alone)(&job, n);

@@ -24,7 +24,7 @@ typedef struct met {
   uint32_t which[MET];
   ray rays[MET];
   hit hits[MET];
-  sampler numbers[MET];
+  sampler numbers[MET], common[MET];  // those of matt ones: of the group
   vertex at[MET];
   path_ready ready[MET / LANES];
   bool asked[MET];  // whether light is what a light was asked for
@@ -50,8 +50,7 @@ typedef struct shadow {
   size_t record;  // in the log; PATH_NO_RECORD: none
 } shadow;
 
-// The room of one worker: paths, those still on their way with their rays, and
-// the light samples of this wave.
+// The room of one worker: paths, their rays, and light samples of this wave.
 typedef struct wave {
   const path_tracer *by;
   path_stats *stats;
@@ -103,7 +102,8 @@ size_t wave_miss(const wave *w, size_t n, uint32_t which, const ray *r);
 void wave_meet_sky(const wave *w, size_t n);
 void wave_meet_glow(const wave *w, path *p, const vertex *v);
 
-// The vertices of the first n rays and hits of w->met.
+// Ray i of the wave meets a surface: n of w->met.  Vertices of the first n.
+void wave_meet(const wave *w, size_t n, size_t i);
 void wave_vertices(const wave *w, size_t n);
 
 // Question i of several to lights: one that is matt knows its answer, if

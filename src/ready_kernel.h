@@ -37,17 +37,31 @@ static inline void ready_lights(ready_work *w, const light_set *l) {
     if (w->r.found[i]) lanes_set(&w->r.radiance, i, lane_radiance(w, i, l));
 }
 
+// Those of bits `uses` of all, by samplers s.
+static inline void ready_even(ready_work *w, const ready_job *j,
+                              const sampler *s, int n, uint32_t uses) {
+  for (int i = 0; i < LANES; i++) {
+    const sampler *one = &s[i < n ? i : n - 1];
+    w->key_lo[i] = (uint32_t)one->key;
+    w->key_hi[i] = (uint32_t)(one->key >> 32);
+    w->index[i] = one->index;
+  }
+  ready_numbers(w, s->kind, j->dimension, uses);
+}
+
 // sampler_8 of all.
 static inline void ready_draw(ready_work *w, const ready_job *j, size_t from,
                               int n) {
-  sampler_kind kind = j->numbers[from].kind;
-  if (kind != SAMPLER_RANDOM) {
-    ready_numbers(w, kind, j->dimension, j->uses != 0 ? j->uses : UINT32_MAX);
+  if (j->numbers[from].kind != SAMPLER_RANDOM) {
+    uint32_t uses = j->uses != 0 ? j->uses : UINT32_MAX;
+    ready_even(w, j, j->numbers + from, n, uses);
+    if (j->toward != NULL)
+      ready_even(w, j, j->toward + from, n, 3u << USE_DIRECTION);
     return;
   }
   for (int i = 0; i < n; i++) {
     float u[USES];
-    sampler_8(&j->numbers[from + (size_t)i], j->dimension, u);
+    path_ready_draw(j, from + (size_t)i, u);
     for (int k = 0; k < USES; k++)
       w->r.u[k][i] = u[k];
   }
@@ -60,9 +74,6 @@ static inline void ready_run(ready_work *w, const ready_job *j, size_t from,
   for (int i = 0; i < LANES; i++) {
     size_t k = from + (size_t)(i < n ? i : n - 1);
     lane_gather(&w->v, i, j->scene, &j->hits[k], &j->rays[k]);
-    w->key_lo[i] = (uint32_t)j->numbers[k].key;
-    w->key_hi[i] = (uint32_t)(j->numbers[k].key >> 32);
-    w->index[i] = j->numbers[k].index;
     w->triangle[i] = j->hits[k].triangle;
   }
   lanes_find(&w->v);

@@ -10,7 +10,7 @@
 
 // Samples of the pixels of so many groups, each twice, by paths that share and
 // by such that do not; of a few groups first, which are the first of all.
-enum { GROUPS = 128, FEW = 32, PIXELS = GROUPS * GROUP, TWICE = 2, WAYS = 2 };
+enum { GROUPS = 64, FEW = 16, PIXELS = GROUPS * GROUP, TWICE = 2, WAYS = 2 };
 
 // Variance times rays must shrink by this factor: errors that neighbours have
 // in common are seen more easily, and less is known of them.

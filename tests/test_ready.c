@@ -140,8 +140,11 @@ static void check_one(const ready_job *j, size_t k, const dfg *table,
                       counts *c) {
   const path_ready *r = &j->ready[k / LANES];
   int i = (int)(k % LANES);
-  float u[USES];
-  sampler_8(&j->numbers[k], j->dimension, u);
+  float u[USES], own[USES];
+  if (j->toward != NULL) sampler_8(&j->toward[k], j->dimension, u);
+  sampler_8(&j->numbers[k], j->dimension, own);
+  for (int d = j->toward != NULL ? 2 : 0; d < USES; d++)
+    u[d] = own[d];
   for (int d = 0; d < USES; d++)
     assert_float(u[d], r->u[d][i]);
   vertex v = vertex_at(j->scene, &j->hits[k], j->rays[k].d);
@@ -164,7 +167,8 @@ static void check_one(const ready_job *j, size_t k, const dfg *table,
 }
 
 // Runs of every length up to 64, at every dimension from which blocks begin
-// and samples of low and high numbers.
+// and samples of low and high numbers; every third run has directions by other
+// numbers.
 static void check_level(const world *w, const light_set *lights,
                         const path_plain *plain, ready_function *by,
                         sampler_kind kind, counts *c) {
@@ -172,7 +176,7 @@ static void check_level(const world *w, const light_set *lights,
   ray rays[HITS];
   vertex at[64];
   path_ready ready[64 / LANES];
-  sampler numbers[64];
+  sampler numbers[64], toward[64];
   size_t n = world_hits(w, 3, hits, rays);
   ready_job j = {.scene = &w->scene,
                  .lights = lights,
@@ -182,9 +186,12 @@ static void check_level(const world *w, const light_set *lights,
                  .ready = ready};
   for (size_t from = 0, run = 1; from < n; from += run, run = run % 64 + 1) {
     if (run > n - from) run = n - from;
-    for (size_t i = 0; i < run; i++)
-      numbers[i] = sampler_of(kind, 5, from + i,
-                              (uint32_t)((from + i) * (from + i) >> from % 20));
+    for (size_t i = 0; i < run; i++) {
+      uint32_t sample = (uint32_t)((from + i) * (from + i) >> from % 20);
+      numbers[i] = sampler_of(kind, 5, from + i, sample);
+      toward[i] = sampler_of(kind, 6, from, sample + (uint32_t)i);
+    }
+    j.toward = run % 3 == 0 ? toward : NULL;
     j.dimension = 2 + USES * (uint32_t)(run % 5);
     j.hits = hits + from, j.rays = rays + from;
     by(&j, run);

@@ -755,7 +755,7 @@ static void draw_neighbours(output *o) {
   double alone = clock_seconds() - start;
   start = clock_seconds();
   if (share_learn(&by, &all_of, o->threads)) by.film = &all_of;
-  parts[1] = render_room(o, s, &v, &by, 7);
+  parts[1] = render_room(o, s, &v, &by, 6);
   printf("alone %.2f s, shared %.2f s\n", alone, clock_seconds() - start);
   by.seed = 0;
   image truth = render_room(o, s, &v, &by, 128);
