@@ -36,12 +36,12 @@ endif
 # program of a chapter links only the modules that it and the chapters before
 # it explain: the linker proves the reading order.
 CHAPTER_1 := scalar vec error arena report file image png pfm hdr jpeg tga picture picture_head metric
-CHAPTER_2 := $(CHAPTER_1) cpu_quota pool number text path_find polygon \
+CHAPTER_2 := $(CHAPTER_1) cpu_quota clock pool number text path_find polygon \
              mesh name_table mtl_map mtl mtl_read obj_source obj_corner \
              pages obj_chunk obj_line obj_parse obj_pack obj_merge obj_events obj normals
 CHAPTER_3 := $(CHAPTER_2) num ray triangle camera texture env material \
              statement scene_file mesh_join material_list scene scene_text
-CHAPTER_4 := $(CHAPTER_3) aabb slab bvh clock sah_box sah bvh_part bvh_read bvh_build rays rays_make
+CHAPTER_4 := $(CHAPTER_3) aabb slab bvh sah_box sah bvh_part bvh_read bvh_build rays rays_make
 CHAPTER_5 := $(CHAPTER_4) gl_api gl gl_make glsl raster_settings raster_block raster_mesh \
              raster_maps raster_program raster_seen raster_shadow raster_view raster_stock \
              raster_pass raster_once raster

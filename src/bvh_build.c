@@ -303,7 +303,7 @@ void bvh_build_source(bvh *out, const bvh_source *from, arena *mem,
   if (out->kept > 0) {
     build_top(&b, &from->root, from->mem, &scratch);
     build_tasks(&b, mem, from->mem, &scratch);
-    out->cost = bvh_cost(out);
+    out->cost = bvh_cost(out, threads);
   }
   arena_free(from->mem);
   arena_free(&scratch);

@@ -172,15 +172,39 @@ void bvh_task_run(bvh_task *t) {
 
 const bvh_hands bvh_plain_hands = {bin_refs, move_refs, bvh_task_run};
 
+// Costs of so many nodes are added up in one go.
+enum { NODES = 4096 };
+
+// Sums of costs: sum[i] of all nodes from i NODES on.
+typedef struct cost_sums {
+  const bvh *b;
+  double *sum;
+} cost_sums;
+
 // Each node costs what it does times the chance that a line through the root's
 // box meets its box.
-double bvh_cost(const bvh *b) {
+static void sum_costs(void *context, size_t item, int worker) {
+  (void)worker;
+  const cost_sums *to = context;
+  uint32_t begin = (uint32_t)item * NODES, count = to->b->node_count;
   double sum = 0;
-  for (uint32_t i = 0; i < b->node_count; i++) {
-    const bvh_node *n = &b->nodes[i];
+  for (uint32_t i = begin; i < count && i - begin < NODES; i++) {
+    const bvh_node *n = &to->b->nodes[i];
     double price = n->count > 0 ? (double)n->count : SAH_NODE_COST;
     sum += price * aabb_half_area((aabb){n->lo, n->hi});
   }
+  to->sum[item] = sum;
+}
+
+double bvh_cost(const bvh *b, pool *threads) {
+  arena mem = {0};
+  size_t items = b->node_count / NODES + 1;
+  cost_sums to = {b, ARENA_NEW(&mem, double, items)};
+  pool_run_near(threads, items, sum_costs, &to);
+  double sum = 0;
+  for (size_t i = 0; i < items; i++)
+    sum += to.sum[i];
+  arena_free(&mem);
   double all = aabb_half_area((aabb){b->nodes[0].lo, b->nodes[0].hi});
   return all > 0 ? sum / all : 0;
 }

@@ -87,8 +87,8 @@ typedef struct bvh_hands {
 // to the bit.
 extern const bvh_hands bvh_plain_hands;
 
-// The expected cost of a tree, as in bvh.
-double bvh_cost(const bvh *b);
+// The expected cost of a tree, as in bvh; the same for any threads.
+double bvh_cost(const bvh *b, pool *threads);
 
 // A node with the bounds of a box.
 bvh_node bvh_node_of(const sah_box *b, uint32_t first, uint32_t count);

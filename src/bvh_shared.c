@@ -197,7 +197,7 @@ static void build_cut(bvh *out, splitter *s, arena *mem, pool *threads) {
   out->bundles[s->bundle_count] = out->kept;
   name_triangles(out, s, tree.order);
   out->parts = from.root.end - s->bundle_count;
-  out->cost = bvh_cost(out);
+  out->cost = bvh_cost(out, threads);
   arena_free(&scratch);
 }
 

@@ -325,7 +325,7 @@ void bvh_split_build(bvh *out, const bvh *mesh, double rays, arena *mem,
     build_top(&b, &root);
     build_tasks(&b, mem, &refs, &scratch);
     out->parts = out->refs - out->kept;
-    out->cost = bvh_cost(out);
+    out->cost = bvh_cost(out, threads);
   } else {
     bvh_source from = {b.shop.refs[0], root.part, BVH_COARSE, &refs,
                        build_hands()};

@@ -5,6 +5,7 @@
 
 #include "pool.h"
 
+#include "clock.h"
 #include "cpu_quota.h"
 
 #include <assert.h>
@@ -16,6 +17,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+// Seconds to wait awake.
+#define LINGER 50e-6
+
 // More workers than this help nobody.
 enum { POOL_MAX_THREADS = 1024 };
 
@@ -26,23 +30,22 @@ typedef struct pool_helper {
   int worker;
 } pool_helper;
 
-// Items that one worker begins with, next..end-1; on lines of its own, as all
-// ask for it.
+// Items that one worker begins with, and nobody has taken: from the lower half
+// of `left` up to the upper half.  On lines of its own, as all ask for it.
 typedef struct pool_stretch {
-  atomic_size_t next;
-  size_t end;
-  char apart[128 - 2 * sizeof(size_t)];
+  atomic_uint_least64_t left;
+  char apart[120];
 } pool_stretch;
 
-// The lock guards round, busy and quit; work, context and items change only
-// while no helper is busy.
+// The lock guards what is written to round, busy and quit; work, context and
+// items change only while no helper is busy.
 struct pool {
   pthread_mutex_t lock;
   pthread_cond_t start, done;
   pool_helper *helpers;
   int helper_count;
-  uint64_t round;  // counts the calls of pool_run
-  int busy;        // helpers that have not finished this round
+  atomic_uint_least64_t round;  // counts the calls of pool_run
+  atomic_int busy;              // helpers that have not finished this round
   bool quit;
   pool_work work;
   void *context;
@@ -71,6 +74,20 @@ static void drain(pool *p, int worker) {
     p->work(p->context, item, worker);
 }
 
+// Wait awake for a while: to fall asleep and to be woken takes longer than most
+// of what lies between two rounds.
+static void linger_for_round(pool *p, uint64_t seen) {
+  double end = clock_seconds() + LINGER;
+  while (atomic_load(&p->round) == seen && clock_seconds() < end)
+    ;
+}
+
+static void linger_for_helpers(pool *p) {
+  double end = clock_seconds() + LINGER;
+  while (atomic_load(&p->busy) > 0 && clock_seconds() < end)
+    ;
+}
+
 // A helper's life: sleep until a round begins, drain it, say so.
 static void *helper_main(void *argument) {
   pool_helper *self = argument;
@@ -86,6 +103,9 @@ static void *helper_main(void *argument) {
     drain(p, self->worker);
     pthread_mutex_lock(&p->lock);
     if (--p->busy == 0) pthread_cond_signal(&p->done);
+    pthread_mutex_unlock(&p->lock);
+    linger_for_round(p, seen);
+    pthread_mutex_lock(&p->lock);
   }
   pthread_mutex_unlock(&p->lock);
   return NULL;
@@ -165,28 +185,41 @@ typedef struct near_items {
   void *context;
 } near_items;
 
-// Whoever comes, whatever the item: its own stretch, then those after it.
+// Take an item of a stretch, the last or the first; false when none is left.
+static bool take_item(pool_stretch *s, bool last, uint32_t *item) {
+  uint64_t left = atomic_load(&s->left), then;
+  do {
+    uint32_t begin = (uint32_t)left, end = (uint32_t)(left >> 32);
+    if (begin >= end) return false;
+    *item = last ? end - 1 : begin;
+    then = last ? left - (UINT64_C(1) << 32) : left + 1;
+  } while (!atomic_compare_exchange_weak(&s->left, &left, then));
+  return true;
+}
+
+// Whoever comes, whatever the item: its own stretch from the end, then those
+// after it from the beginning, so that it helps with the same items every time.
 static void run_stretches(void *context, size_t item, int worker) {
   (void)item;
   const near_items *to = context;
   int n = pool_threads(to->owner);
   for (int k = 0; k < n; k++) {
     pool_stretch *s = &to->owner->stretches[(worker + k) % n];
-    size_t i;
-    while ((i = atomic_fetch_add(&s->next, 1)) < s->end)
+    uint32_t i;
+    while (take_item(s, k == 0, &i))
       to->work(to->context, i, worker);
   }
 }
 
 void pool_run_near(pool *p, size_t items, pool_work work, void *context) {
-  size_t n = (size_t)pool_threads(p);
-  if (n == 1 || items <= 1) {
+  uint64_t n = (uint64_t)pool_threads(p);
+  if (n == 1 || items <= 1 || items > UINT32_MAX) {
     pool_run(p, items, work, context);
     return;
   }
-  for (size_t k = 0; k < n; k++) {
-    atomic_store(&p->stretches[k].next, items / n * k + items % n * k / n);
-    p->stretches[k].end = items / n * (k + 1) + items % n * (k + 1) / n;
+  for (uint64_t k = 0; k < n; k++) {
+    uint64_t begin = items * k / n, end = items * (k + 1) / n;
+    atomic_store(&p->stretches[k].left, end << 32 | begin);
   }
   near_items to = {p, work, context};
   pool_run(p, n, run_stretches, &to);
@@ -211,6 +244,7 @@ void pool_cancel(pool *p) {
 }
 
 void pool_wait(pool *p) {
+  linger_for_helpers(p);
   pthread_mutex_lock(&p->lock);
   while (p->busy > 0)
     pthread_cond_wait(&p->done, &p->lock);
