@@ -75,14 +75,14 @@ const aim_mirrors *aim_mirrors_of(const path_world *world, const light_set *l,
     n += is_mirror(s, i);
   if (n == 0 || n > PICK_UNITS) return NULL;
   arena scratch = {0};
-  float *areas = ARENA_NEW(&scratch, float, n);
+  double *areas = ARENA_NEW(&scratch, double, n);
   aim_mirrors *m = ARENA_NEW(mem, aim_mirrors, 1);
   *m =
       (aim_mirrors){world, l, ARENA_NEW(mem, uint32_t, n), pick_new(mem, n), 0};
   n = 0;
   for (uint32_t i = 0; i < all; i++) {
     if (!is_mirror(s, i)) continue;
-    areas[n] = (float)mesh_triangle_area(&s->mesh, i);
+    areas[n] = (double)(float)mesh_triangle_area(&s->mesh, i);
     m->triangles[n++] = i;
   }
   pick_weigh(&m->by_area, areas, &m->area);

@@ -79,24 +79,6 @@ static image sky_map(const env *e, arena *mem) {
   return map;
 }
 
-// The mean of a map's radiance over the sphere, and the largest.
-static float mean_and_peak(const image *map, float *peak) {
-  double sum = 0, weight = 0;
-  const vec3 *pixel = map->pixels;
-  *peak = 0;
-  for (int y = 0; y < map->height; y++) {
-    double of_row = 0, sine = (double)row_sine(y, map->height);
-    for (int x = 0; x < map->width; x++, pixel++) {
-      float value = mean_of(*pixel);
-      *peak = float_max(*peak, value);
-      of_row += (double)value;
-    }
-    sum += of_row * sine;
-    weight += map->width * sine;
-  }
-  return (float)(sum / weight);
-}
-
 // Finds the scale of each row; gives the radiance that 1 stands for, 0 where
 // the table holds nothing.
 static float measure(light_env *l, arena *mem) {
@@ -109,51 +91,71 @@ static float measure(light_env *l, arena *mem) {
   return l->peak - l->less;
 }
 
-// Work of the pool: the columns of one row of cells.
+// Rows of cells that are one item of work.
+enum { RUN = 16 };
+
+// What a worker needs: two rows of texels, by what the table holds, and one of
+// cells.
+typedef struct row_room {
+  float *high, *low;
+  double *values;
+} row_room;
+
 typedef struct row_job {
   light_env *light;
-  float *values, *sums;
+  row_room *rooms;
+  double *sums;
 } row_job;
 
 // The corners of cells that lie in one row of texels.
-static float *weigh_texels(const light_env *l, int row, arena *mem) {
+static void weigh_texels(const light_env *l, int row, float *values) {
   size_t y = (size_t)clamped(row, l->map.height), w = (size_t)l->map.width;
   const vec3 *pixels = l->map.pixels + y * w;
-  float *values = ARENA_NEW(mem, float, w);
   for (size_t i = 0; i < w; i++)
     values[i] = above(l, pixels[i]) * l->scale[y];
-  return values;
 }
 
-static void weigh_row(void *context, size_t item, int worker) {
-  (void)worker;
-  row_job *job = context;
+static void weigh_row(const row_job *job, const row_room *r, int j) {
   light_env *l = job->light;
-  int j = (int)item, w = l->map.width;
-  float *values = job->values + item * (size_t)w;
-  arena scratch = {0};
-  float *high = weigh_texels(l, j - 1, &scratch);
-  float *low = weigh_texels(l, j, &scratch);
+  int w = l->map.width;
   for (int i = 0, left = w - 1; i < w; left = i++) {
-    cell c = {high[left], high[i], low[left], low[i]};
-    values[i] = cell_mean(&c);
+    cell c = {r->high[left], r->high[i], r->low[left], r->low[i]};
+    r->values[i] = (double)cell_mean(&c);
   }
-  arena_free(&scratch);
   double sum;
-  pick_weigh(&l->columns[j], values, &sum);
-  job->sums[j] = (float)sum * cell_height(l, j);
+  pick_weigh(&l->columns[j], r->values, &sum);
+  job->sums[j] = (double)((float)sum * cell_height(l, j));
+}
+
+static void weigh_run(void *context, size_t item, int worker) {
+  const row_job *job = context;
+  row_room *r = &job->rooms[worker];
+  const light_env *l = job->light;
+  int from = (int)item * RUN, to = from + RUN;
+  weigh_texels(l, from - 1, r->low);
+  for (int j = from; j < to && j <= l->map.height; j++) {
+    float *above = r->low;
+    r->low = r->high;
+    r->high = above;
+    weigh_texels(l, j, r->low);
+    weigh_row(job, r, j);
+  }
 }
 
 static void weigh(light_env *l, float unit, arena *mem, pool *threads) {
   size_t rows = (size_t)l->map.height + 1, width = (size_t)l->map.width;
+  int workers = threads == NULL ? 1 : pool_threads(threads);
   arena scratch = {0};
-  row_job job = {l, ARENA_NEW(&scratch, float, rows *width),
-                 ARENA_NEW(&scratch, float, rows)};
+  row_job job = {l, ARENA_NEW(&scratch, row_room, (size_t)workers),
+                 ARENA_NEW(&scratch, double, rows)};
+  for (int k = 0; k < workers; k++)
+    job.rooms[k] = (row_room){ARENA_NEW(&scratch, float, width),
+                              ARENA_NEW(&scratch, float, width),
+                              ARENA_NEW(&scratch, double, width)};
   l->columns = ARENA_NEW(mem, pick, rows);
   l->rows = pick_new(mem, (uint32_t)rows);
-  for (size_t j = 0; j < rows; j++)
-    l->columns[j] = pick_new(mem, (uint32_t)width);
-  pool_run(threads, rows, weigh_row, &job);
+  pick_new_all(l->columns, rows, mem, (uint32_t)width);
+  pool_run(threads, (rows + RUN - 1) / RUN, weigh_run, &job);
   double sum;
   pick_weigh(&l->rows, job.sums, &sum);
   double cells = (double)width * (double)l->map.height;
@@ -161,6 +163,56 @@ static void weigh(light_env *l, float unit, arena *mem, pool *threads) {
   l->irradiance = (float)(mean * (double)(PI * PI / 2)) * l->env->scale;
   l->rest = float_max(PI * l->mean * l->env->scale - l->irradiance, 0);
   arena_free(&scratch);
+}
+
+// The mean of a map's radiance over the sphere, and the largest, row by row.
+// Rows that are added up abreast do not wait for each other.
+enum { ABREAST = 4 };
+
+typedef struct mean_job {
+  const image *map;
+  double *sums;  // by row
+  float *peaks;
+} mean_job;
+
+static void add_rows(void *context, size_t item, int worker) {
+  (void)worker;
+  const mean_job *job = context;
+  const vec3 *row[ABREAST];
+  int first = (int)item * ABREAST, n = job->map->height - first;
+  for (int k = 0; k < ABREAST; k++)
+    row[k] = job->map->pixels +
+             (size_t)(first + (k < n ? k : 0)) * (size_t)job->map->width;
+  double sum[ABREAST] = {0};
+  float peak[ABREAST] = {0};
+  for (int x = 0; x < job->map->width; x++)
+    for (int k = 0; k < ABREAST; k++) {
+      float value = mean_of(row[k][x]);
+      peak[k] = float_max(peak[k], value);
+      sum[k] += (double)value;
+    }
+  for (int k = 0; k < ABREAST && k < n; k++) {
+    job->sums[first + k] = sum[k];
+    job->peaks[first + k] = peak[k];
+  }
+}
+
+static float mean_and_peak(const image *map, float *peak, pool *threads) {
+  arena scratch = {0};
+  size_t rows = (size_t)map->height;
+  mean_job job = {map, ARENA_NEW(&scratch, double, rows),
+                  ARENA_NEW(&scratch, float, rows)};
+  pool_run(threads, (rows + ABREAST - 1) / ABREAST, add_rows, &job);
+  double sum = 0, weight = 0;
+  *peak = 0;
+  for (int y = 0; y < map->height; y++) {
+    double sine = (double)row_sine(y, map->height);
+    *peak = float_max(*peak, job.peaks[y]);
+    sum += job.sums[y] * sine;
+    weight += map->width * sine;
+  }
+  arena_free(&scratch);
+  return (float)(sum / weight);
 }
 
 static void fill(light_env *l, arena *mem, pool *threads) {
@@ -174,7 +226,7 @@ void light_env_build(light_env *out, const env *e, arena *mem, pool *threads) {
   if (e->kind == ENV_MAP && e->map.pixels == NULL) return;
   if (!(e->scale > 0)) return;
   out->map = e->kind == ENV_SKY ? sky_map(e, mem) : e->map;
-  out->less = out->mean = mean_and_peak(&out->map, &out->peak);
+  out->less = out->mean = mean_and_peak(&out->map, &out->peak, threads);
   fill(out, mem, threads);
 }
 

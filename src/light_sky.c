@@ -129,14 +129,14 @@ static void fill_part(const cutter *c, const block *b, light_sky_part *out,
   int n = first_of(c, b->y1, e->map.height + 1) - out->row;
   int i0 = first_of(c, b->x0, e->map.width),
       i1 = first_of(c, b->x1, e->map.width);
-  float *weights = ARENA_NEW(&scratch, float, (size_t)n);
+  double *weights = ARENA_NEW(&scratch, double, (size_t)n);
   out->of_row = ARENA_NEW(mem, light_sky_row, (size_t)n);
   out->rows = pick_new(mem, (uint32_t)n);
   for (int k = 0; k < n; k++) {
     const uint32_t *upto = e->columns[out->row + k].upto;
     out->of_row[k] = (light_sky_row){upto[i0], upto[i1], 0};
-    weights[k] = pick_share(&e->rows, (uint32_t)(out->row + k)) *
-                 (float)(upto[i1] - upto[i0]);
+    weights[k] = (double)(pick_share(&e->rows, (uint32_t)(out->row + k)) *
+                          (float)(upto[i1] - upto[i0]));
   }
   double sum;
   pick_weigh(&out->rows, weights, &sum);

@@ -11,11 +11,20 @@
 enum { PICK_STRIDE = 4, PICK_WIDE = 8 };
 
 // Behind the last number come some that are never picked.
+void pick_new_all(pick *out, size_t count, arena *mem, uint32_t n) {
+  size_t wide = (size_t)n + 1 + PICK_WIDE, guides = n / PICK_STRIDE + 2;
+  uint32_t *upto = ARENA_NEW(mem, uint32_t, count * wide);
+  uint32_t *guide = ARENA_NEW(mem, uint32_t, count * guides);
+  for (size_t k = 0; k < count; k++) {
+    out[k] = (pick){upto + k * wide, guide + k * guides, n};
+    for (uint32_t i = 1; i <= PICK_WIDE; i++)
+      out[k].upto[n + i] = PICK_UNITS;
+  }
+}
+
 pick pick_new(arena *mem, uint32_t n) {
-  pick p = {ARENA_NEW(mem, uint32_t, (size_t)n + 1 + PICK_WIDE),
-            ARENA_NEW(mem, uint32_t, (size_t)n / PICK_STRIDE + 2), n};
-  for (uint32_t i = 1; i <= PICK_WIDE; i++)
-    p.upto[n + i] = PICK_UNITS;
+  pick p;
+  pick_new_all(&p, 1, mem, n);
   return p;
 }
 
@@ -28,28 +37,33 @@ static uint32_t entry_of(const pick *p, uint32_t unit) {
   return (uint32_t)((uint64_t)unit * entries(p) / PICK_UNITS);
 }
 
-// For each entry the number that the first unit of it picks.
+// The first entry whose units all pick numbers behind one that ends there.
+static uint32_t entry_behind(uint32_t upto, uint32_t n) {
+  return upto == 0 ? 0 : (uint32_t)((uint64_t)(upto - 1) * n / PICK_UNITS) + 1;
+}
+
+// For each entry the number that the first unit of it picks.  Numbers tell
+// entries, not the other way round: no branch depends on where they end.
 static void make_guide(pick *p) {
-  uint32_t n = entries(p), i = 0;
+  uint32_t n = entries(p), most = 0;
+  memset(p->guide, 0, n * sizeof *p->guide);
+  for (uint32_t i = 1; i < p->n; i++)
+    p->guide[entry_behind(p->upto[i], n)] = i;
   for (uint32_t e = 0; e < n; e++) {
-    uint64_t unit = ((uint64_t)e * PICK_UNITS + n - 1) / n;
-    while (i + 1 < p->n && p->upto[i + 1] <= unit)
-      i++;
-    p->guide[e] = i;
+    most = p->guide[e] > most ? p->guide[e] : most;
+    p->guide[e] = most;
   }
   p->guide[n] = p->n - 1;
 }
 
-void pick_weigh(pick *p, const float *weights, double *sum) {
-  double total = 0, below = 0;
+void pick_weigh(pick *p, double *weights, double *sum) {
+  double below = 0;
   for (uint32_t i = 0; i < p->n; i++)
-    total += (double)weights[i];
-  *sum = total;
-  double scale = total > 0 ? PICK_UNITS / total : 0;
-  for (uint32_t i = 0; i < p->n; i++) {
-    below += (double)weights[i];
-    p->upto[i + 1] = (uint32_t)(below * scale + 0.5);
-  }
+    weights[i] = below += weights[i];
+  *sum = below;
+  double scale = below > 0 ? PICK_UNITS / below : 0;
+  for (uint32_t i = 0; i < p->n; i++)
+    p->upto[i + 1] = (uint32_t)(int32_t)(weights[i] * scale + 0.5);
   make_guide(p);
 }
 

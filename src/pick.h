@@ -18,12 +18,15 @@ typedef struct pick {
   uint32_t n;
 } pick;
 
-// Room for n <= PICK_UNITS numbers.
+// Room for n <= PICK_UNITS numbers; and that of `count` tables, next to each
+// other in memory.
 pick pick_new(arena *mem, uint32_t n);
+void pick_new_all(pick *out, size_t count, arena *mem, uint32_t n);
 
-// Probabilities in proportion to n weights >= 0, rounded.  *sum is their sum;
-// where that is 0 nothing must be picked.
-void pick_weigh(pick *p, const float *weights, double *sum);
+// Probabilities in proportion to n weights >= 0, rounded.  Of the weights
+// become sums: each with all before it.  *sum is that of all; where it is 0
+// nothing must be picked.
+void pick_weigh(pick *p, double *weights, double *sum);
 
 // The number that u in [0, 1) picks, of probability *share > 0; *u becomes
 // where in its share u was, again in [0, 1).
