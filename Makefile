@@ -113,7 +113,7 @@ endif
 ifndef SAN
 QUICK_LOOPS := -O3 -fno-math-errno -fno-trapping-math
 $(B)/src/ready_%.o: LOOPS := $(QUICK_LOOPS)
-$(addprefix $(B)/src/,two_means.o doubling.o light_env.o pick.o): LOOPS := $(QUICK_LOOPS)
+$(addprefix $(B)/src/,two_means.o doubling.o pick.o light_env.o light_lore.o light_memory.o): LOOPS := $(QUICK_LOOPS)
 endif
 
 # The files of shaders/ as one table of names and texts (src/glsl.h).

@@ -2,7 +2,9 @@
 
 #include "light_lore.h"
 
-#include <math.h>
+#include "scalar.h"
+
+#include <float.h>
 
 enum { GRID = LIGHT_GRID, SIDES = LIGHT_SIDES, LEVELS = LIGHT_LEVELS };
 enum { KEYS = GRID * GRID * GRID * SIDES };
@@ -10,12 +12,12 @@ _Static_assert(GRID >> (LEVELS - 1) << (LEVELS - 1) == GRID, "whole blocks");
 
 // A cell adds so many records of its block to its own, a block as many of its
 // own block, and so on up to the whole scene.
-#define SHARED 3.0
+#define SHARED 3.0f
 
 // The least quotient of the densities of scattered rays and of a question, and
 // the least weight of a question.
-#define LEAST_SCATTERED 0.01
-#define LEAST_WEIGHT 1e-6
+#define LEAST_SCATTERED 0.01f
+#define LEAST_WEIGHT 1e-6f
 
 // Rows have 16 bits.  Where there are more cells than that leaves, the rest has
 // only its block's.
@@ -74,54 +76,66 @@ static void inherit(uint16_t *row_of, uint32_t grid, const uint16_t *above) {
       }
 }
 
-static void add(lore *to, const lore *l, double times) {
-  to->asked += times * l->asked;
-  to->finds += times * l->finds;
-  to->squares += times * l->squares;
-  to->alone += times * l->alone;
+static void add(lore *restrict to, const lore *restrict l) {
+  for (int k = 0; k < LIGHT_PARTS_MOST; k++) {
+    to->asked[k] += l->asked[k];
+    to->finds[k] += l->finds[k];
+    to->squares[k] += l->squares[k];
+    to->alone[k] += l->alone[k];
+  }
+}
+
+static void add_some(lore *restrict to, const lore *restrict l) {
+  for (int k = 0; k < LIGHT_PARTS_MOST; k++) {
+    float times = SHARED / l->asked[k];
+    times = l->asked[k] > 0 ? times : 0;
+    to->asked[k] += times * l->asked[k];
+    to->finds[k] += times * l->finds[k];
+    to->squares[k] += times * l->squares[k];
+    to->alone[k] += times * l->alone[k];
+  }
 }
 
 // Blocks have the records of what is in them; then, from above, each row gets
 // some of its block's.
 static void share_lore(light_lore *l, const kin *kins) {
   for (uint32_t i = 1; i < l->rows; i++)
-    for (uint32_t k = 0; k < l->parts; k++)
-      add(&l->of[(size_t)kins[i].above * l->parts + k],
-          &l->of[(size_t)i * l->parts + k], 1);
+    add(&l->of[kins[i].above], &l->of[i]);
   for (uint32_t i = l->rows - 1; i > 0; i--)
-    for (uint32_t k = 0; k < l->parts; k++) {
-      const lore *block = &l->of[(size_t)kins[i].above * l->parts + k];
-      if (block->asked > 0)
-        add(&l->of[(size_t)i * l->parts + k], block, SHARED / block->asked);
-    }
+    add_some(&l->of[i], &l->of[kins[i].above]);
 }
 
-static void note(lore *l, const light_record *r, double share) {
-  double find = (double)r->found;
-  double scattered = 1 / fmax((double)r->weight, LEAST_WEIGHT) - 1;
-  l->asked++;
-  l->finds += find;
-  l->squares += find * find;
-  l->alone += find * find / (share * fmax(scattered, LEAST_SCATTERED));
+static void note(const light_lore *l, const light_record *r, float share) {
+  uint32_t row = l->row_of[0][r->key], k = r->part;
+  lore *to = &l->of[row];
+  float find = r->found * l->unit;
+  float scattered = 1 / float_max(r->weight, LEAST_WEIGHT) - 1;
+  l->visits[row]++;
+  to->asked[k]++;
+  to->finds[k] += find;
+  to->squares[k] += find * find;
+  to->alone[k] += find * find / (share * float_max(scattered, LEAST_SCATTERED));
+}
+
+static float unit_of(const light_record *records, size_t n) {
+  float most = 0;
+  for (size_t i = 0; i < n; i++)
+    most = float_max(most, records[i].found);
+  return most > FLT_MIN ? 1 / most : 1;
 }
 
 light_lore light_lore_of(const light_record *records, size_t n,
-                         const double *share, uint32_t parts, arena *mem,
-                         arena *scratch) {
-  light_lore l = {.parts = parts};
+                         const float *share, arena *mem, arena *scratch) {
+  light_lore l = {.unit = unit_of(records, n)};
   for (int level = 0; level < LEVELS; level++)
     l.row_of[level] =
         ARENA_NEW(level > 0 ? scratch : mem, uint16_t, KEYS >> 3 * level);
   kin *kins = ARENA_NEW(scratch, kin, MOST_ROWS);
   number_rows(&l, records, n, kins);
   l.visits = ARENA_NEW(scratch, uint32_t, l.cells);
-  l.of = ARENA_NEW(scratch, lore, (size_t)l.rows * parts);
-  for (size_t i = 0; i < n; i++) {
-    const light_record *r = &records[i];
-    size_t row = l.row_of[0][r->key];
-    l.visits[row]++;
-    note(&l.of[row * parts + r->part], r, share[r->part]);
-  }
+  l.of = ARENA_NEW(scratch, lore, l.rows);
+  for (size_t i = 0; i < n; i++)
+    note(&l, &records[i], share[records[i].part]);
   share_lore(&l, kins);
   for (int level = LEVELS - 1; level > 0; level--)
     inherit(l.row_of[level - 1], (uint32_t)GRID >> (level - 1),

@@ -4,7 +4,7 @@
 #ifndef LIGHT_LORE_H
 #define LIGHT_LORE_H
 
-#include "arena.h"
+#include "light_part.h"
 
 #include <stdint.h>
 
@@ -25,17 +25,19 @@ enum { LIGHT_GRID = 24, LIGHT_SIDES = 6 };
 // half as many along a side, down to 3.
 enum { LIGHT_LEVELS = 4 };
 
-// What is known of a part: sums over `asked` questions, of what they found, of
-// its squares, and of those over the density of scattered rays.
+// What is known of each part: sums over `asked` questions, of what they found,
+// of its squares, and of those over the density of scattered rays.
 typedef struct lore {
-  double asked, finds, squares, alone;
+  float asked[LIGHT_PARTS_MOST], finds[LIGHT_PARTS_MOST];
+  float squares[LIGHT_PARTS_MOST], alone[LIGHT_PARTS_MOST];
 } lore;
 
-// A row of lore by part: the first one for all of the scene, then one for each
-// cell where there are records, below `cells`, then those of blocks.
+// A row of lore: the first one for all of the scene, then one for each cell
+// where there are records, below `cells`, then those of blocks.
 typedef struct light_lore {
   lore *of;
-  uint32_t parts, cells, rows;
+  float unit;  // times which finds are, so that the largest is 1
+  uint32_t cells, rows;
   uint32_t *visits;                // of cells, by row
   uint16_t *row_of[LIGHT_LEVELS];  // by key in that grid
 } light_lore;
@@ -45,11 +47,6 @@ typedef struct light_lore {
 // for all keys: where there are no records it is that of the smallest block
 // that has some.
 light_lore light_lore_of(const light_record *records, size_t n,
-                         const double *share, uint32_t parts, arena *mem,
-                         arena *scratch);
-
-static inline const lore *light_lore_row(const light_lore *l, uint32_t row) {
-  return &l->of[(size_t)row * l->parts];
-}
+                         const float *share, arena *mem, arena *scratch);
 
 #endif

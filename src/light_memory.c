@@ -5,7 +5,7 @@
 #include <string.h>
 
 enum { GRID = LIGHT_GRID, SIDES = LIGHT_SIDES, UNITS = LIGHT_UNITS };
-enum { KEYS = GRID * GRID * GRID * SIDES };
+enum { KEYS = GRID * GRID * GRID * SIDES, PARTS = LIGHT_PARTS_MOST };
 
 // The share of questions that goes to all parts by their power: memory is not
 // certain.
@@ -15,16 +15,16 @@ enum { KEYS = GRID * GRID * GRID * SIDES };
 #define LEAST_ASKED 0.08f
 
 // What a question costs, over all else that a path does at a vertex.
-#define COST 0.25
+#define COST 0.25f
 
 // The relative variance of all light, whoever finds it.
-#define OTHER_NOISE 0.3
+#define OTHER_NOISE 0.3f
 
 // What surfaces around send back of the usual light.
-#define AROUND 0.5
+#define AROUND 0.5f
 
 // The least share of scattered rays that meet surfaces.
-#define LEAST_HIDDEN 0.01
+#define LEAST_HIDDEN 0.01f
 
 // So many rows are one item of work.
 enum { ROWS = 64 };
@@ -43,10 +43,12 @@ uint32_t light_memory_key(const light_memory *m, vec3 p, vec3 n) {
 // keeps a unit: what shines may be asked.
 static light_cell cell_of_weights(const light_memory *m, const float *weights) {
   light_cell c;
-  uint32_t n = m->count, end = 0;
-  for (uint32_t i = 0; i < LIGHT_PARTS_MOST; i++) {
-    if (i < n) end += 1 + (uint32_t)(weights[i] * (float)(UNITS - n - 1));
-    c.last[i] = (uint16_t)(i < n ? end - 1 : UNITS - 1);
+  int32_t units[PARTS], n = (int32_t)m->count, end = -1;
+  for (int32_t i = 0; i < PARTS; i++)
+    units[i] = 1 + (int32_t)(weights[i] * (float)(UNITS - n - 1));
+  for (int32_t i = 0; i < PARTS; i++) {
+    end = i < n ? end + units[i] : UNITS - 1;
+    c.last[i] = (uint16_t)end;
   }
   return c;
 }
@@ -57,7 +59,7 @@ bool light_memory_new(light_memory *out, const float *power, uint32_t count,
   float longest = vec3_peak(vec3_sub(hi, lo));
   m.per_unit = GRID / longest;
   if (!(longest > 0 && isfinite(m.per_unit)) || !vec3_finite(lo)) return false;
-  float weights[LIGHT_PARTS_MOST], sum = 0;
+  float weights[PARTS] = {0}, sum = 0;
   for (uint32_t i = 0; i < count; i++)
     sum += power[i];
   for (uint32_t i = 0; i < count; i++) {
@@ -71,17 +73,13 @@ bool light_memory_new(light_memory *out, const float *power, uint32_t count,
   return true;
 }
 
-// What lore of a part means: the irradiance; the mean square of a find; and the
-// probability that a scattered ray goes there, in terms of that of a question.
-typedef struct view {
-  double mean, square, scattered;
-} view;
-
-// All parts from a cell; all light that is there; what of it comes from
-// surfaces around, and the share of scattered rays that go to them.
+// What lore of parts means, in units of lore: the irradiance; the mean square
+// of a find; and the probability that a scattered ray goes there, in terms of
+// that of a question.  All light that is there; what of it comes from surfaces
+// around, and the share of scattered rays that go to them.
 typedef struct outlook {
-  view of[LIGHT_PARTS_MOST];
-  double light, around, hidden;
+  float mean[PARTS], square[PARTS], scattered[PARTS];
+  float light, around, hidden;
 } outlook;
 
 // Noise times time, with memory and without.
@@ -92,77 +90,95 @@ typedef struct bill {
 // Learning.
 typedef struct school {
   light_memory *m;
-  double share[LIGHT_PARTS_MOST];  // of the power
-  double usual_share[LIGHT_PARTS_MOST];
+  float share[PARTS];  // of the power
+  float usual_share[PARTS];
   light_lore lore;
   bill *bills;  // of cells, by row
-  uint32_t parts;
-  double usual;  // light, in all of the scene
+  float usual;  // light, in all of the scene
 } school;
 
+// Four numbers in a register.
+typedef float four __attribute__((vector_size(16)));
+
+// The sum of as many numbers as there are parts, always in the same order.
+static float sum_of(const float *x) {
+  four a, b, even = {0}, odd = {0};
+  for (int i = 0; i < PARTS; i += 8) {
+    memcpy(&a, x + i, sizeof a);
+    memcpy(&b, x + i + 4, sizeof b);
+    even += a;
+    odd += b;
+  }
+  even += odd;
+  return (even[0] + even[2]) + (even[1] + even[3]);
+}
+
 // Exact where only questions go to the part, and where only scattered rays do.
-static view view_of(const lore *l) {
-  if (!(l->squares > 0)) return (view){0, 0, 0};
-  return (view){l->finds / l->asked, l->squares / l->asked,
-                l->squares / l->alone};
+// A part that brought nothing is as if all rays went there: they bring nothing.
+static void view_parts(const lore *l, outlook *o, float *seen) {
+  for (int i = 0; i < PARTS; i++) {
+    bool any = l->squares[i] > 0;
+    float mean = l->finds[i] / l->asked[i];
+    float square = l->squares[i] / l->asked[i];
+    float scattered = l->squares[i] / l->alone[i];
+    float share = scattered * mean * (mean / square);
+    o->mean[i] = any ? mean : 0;
+    o->square[i] = any ? square : 0;
+    o->scattered[i] = any ? scattered : 1;
+    seen[i] = any ? share : 0;
+  }
 }
 
 static outlook outlook_of(const school *s, uint32_t row) {
-  outlook o = {.light = (double)s->m->rest, .hidden = 1};
-  for (uint32_t i = 0; i < s->parts; i++) {
-    view v = o.of[i] = view_of(&light_lore_row(&s->lore, row)[i]);
-    o.light += v.mean;
-    if (v.square > 0) o.hidden -= v.scattered * v.mean * v.mean / v.square;
-  }
-  o.hidden = fmin(fmax(o.hidden, LEAST_HIDDEN), 1);
+  outlook o;
+  float seen[PARTS];
+  view_parts(&s->lore.of[row], &o, seen);
+  o.hidden = float_min(float_max(1 - sum_of(seen), LEAST_HIDDEN), 1);
   o.around = AROUND * s->usual * o.hidden;
-  o.light += o.around;
+  o.light = s->m->rest * s->lore.unit + sum_of(o.mean) + o.around;
   return o;
 }
 
 // What a question and a scattered ray find on average, with p for questions,
 // and the variance of both together.
 typedef struct finds {
-  double asked, scattered, variance;
+  float asked, scattered, variance;
 } finds;
 
-static finds finds_of(const outlook *o, uint32_t n, const double *p) {
-  finds f = {.scattered = o->around};
-  double squares = OTHER_NOISE * o->light * o->light;
-  squares += o->around * o->around / o->hidden;
-  for (uint32_t i = 0; i < n; i++) {
-    const view *v = &o->of[i];
-    if (!(v->square > 0)) continue;
-    double both = 1 / (p[i] + v->scattered);
-    f.asked += v->mean * p[i] * both;
-    f.scattered += v->mean * v->scattered * both;
-    squares += v->square * both;
+static finds finds_of(const outlook *o, const float *p) {
+  float asked[PARTS], scattered[PARTS], squares[PARTS];
+  for (int i = 0; i < PARTS; i++) {
+    float both = 1 / (p[i] + o->scattered[i]);
+    asked[i] = o->mean[i] * p[i] * both;
+    scattered[i] = o->mean[i] * o->scattered[i] * both;
+    squares[i] = o->square[i] * both;
   }
-  f.variance = squares - f.asked * f.asked - f.scattered * f.scattered;
+  finds f = {sum_of(asked), o->around + sum_of(scattered), 0};
+  f.variance = OTHER_NOISE * o->light * o->light +
+               o->around * o->around / o->hidden + sum_of(squares) -
+               f.asked * f.asked - f.scattered * f.scattered;
   return f;
 }
 
 // The best densities of both ways together are in proportion to these.
-static void weigh_roots(const outlook *o, uint32_t n, const finds *f,
-                        double *roots) {
-  double ahead = 2 * (f->scattered - f->asked);
-  for (uint32_t i = 0; i < n; i++) {
-    const view *v = &o->of[i];
-    roots[i] = sqrt(fmax(v->square - ahead * v->mean * v->scattered, 0));
-  }
+static void weigh_roots(const outlook *o, const finds *f, float *roots) {
+  float ahead = 2 * (f->scattered - f->asked);
+  for (int i = 0; i < PARTS; i++)
+    roots[i] = sqrtf(
+        float_max(o->square[i] - ahead * o->mean[i] * o->scattered[i], 0));
 }
 
 // The factor of the roots with which all of one question is dealt out.
-static double whole_question(const outlook *o, uint32_t n,
-                             const double *roots) {
-  double factor = HUGE_VAL;
+static float whole_question(const outlook *o, const float *roots) {
+  float factor = INFINITY;
   for (bool again = true; again;) {
-    double budget = 1, sum = 0, before = factor;
-    for (uint32_t i = 0; i < n; i++) {
-      if (!(roots[i] * before > o->of[i].scattered)) continue;
-      budget += o->of[i].scattered;
-      sum += roots[i];
+    float budgets[PARTS], sums[PARTS], before = factor;
+    for (int i = 0; i < PARTS; i++) {
+      bool part = roots[i] * before > o->scattered[i];
+      budgets[i] = part ? o->scattered[i] : 0;
+      sums[i] = part ? roots[i] : 0;
     }
+    float budget = 1 + sum_of(budgets), sum = sum_of(sums);
     if (sum > 0) factor = budget / sum;
     again = sum > 0 && factor < before;
   }
@@ -170,35 +186,34 @@ static double whole_question(const outlook *o, uint32_t n,
 }
 
 // What scattered rays give is left away.  One more question is worth its cost
-// where that is the share of the noise that it takes away.  Each round goes
-// half of the way: the roots depend on p.  The result is how often to ask at
-// all.
-static double deal(const outlook *o, uint32_t n, double *p) {
-  double asked = 1, roots[LIGHT_PARTS_MOST];
-  enum { ROUNDS = 6 };
+// where that is the share of the noise that it takes away.  The roots depend on
+// p, so there are rounds, and after the first each goes half of the way.  The
+// result is how often to ask at all.
+static float deal(const outlook *o, float *p) {
+  float roots[PARTS];
+  enum { ROUNDS = 3 };
   for (int k = 0; k < ROUNDS; k++) {
-    finds f = finds_of(o, n, p);
-    weigh_roots(o, n, &f, roots);
-    double factor =
-        fmin(whole_question(o, n, roots), 1 / sqrt(COST * fmax(f.variance, 0)));
-    asked = 0;
-    for (uint32_t i = 0; i < n; i++) {
-      double best = roots[i] > 0 ? roots[i] * factor - o->of[i].scattered : 0;
-      p[i] = (p[i] + fmax(best, 0)) / 2;
-      asked += p[i];
+    finds f = finds_of(o, p);
+    weigh_roots(o, &f, roots);
+    float factor = float_min(whole_question(o, roots),
+                             1 / sqrtf(COST * float_max(f.variance, 0)));
+    for (int i = 0; i < PARTS; i++) {
+      float best = roots[i] * factor - o->scattered[i];
+      best = roots[i] > 0 ? best : 0;
+      best = float_max(best, 0);
+      p[i] = k > 0 ? (p[i] + best) / 2 : best;
     }
   }
-  return asked;
+  return sum_of(p);
 }
 
 static light_cell cell_of_outlook(const school *s, const outlook *o) {
-  double p[LIGHT_PARTS_MOST];
-  float weights[LIGHT_PARTS_MOST];
+  float p[PARTS], weights[PARTS];
   memcpy(p, s->share, sizeof p);
-  double asked = deal(o, s->parts, p), sure = 1 - (double)DOUBT;
-  double doubt = fmax(asked, (double)LEAST_ASKED) - sure * asked;
-  for (uint32_t i = 0; i < s->parts; i++)
-    weights[i] = (float)(sure * p[i] + doubt * s->usual_share[i]);
+  float asked = deal(o, p), sure = 1 - DOUBT;
+  float doubt = float_max(asked, LEAST_ASKED) - sure * asked;
+  for (int i = 0; i < PARTS; i++)
+    weights[i] = sure * p[i] + doubt * s->usual_share[i];
   return cell_of_weights(s->m, weights);
 }
 
@@ -207,19 +222,26 @@ static float share_of(const light_cell *c, uint32_t part) {
   return (float)(c->last[part] + 1u - below) / UNITS;
 }
 
+// Those of all parts.
+static void shares_of(const light_memory *m, const light_cell *c, float *p) {
+  p[0] = share_of(c, 0);
+  for (int32_t i = 1; i < PARTS; i++)
+    p[i] = (float)(c->last[i] - c->last[i - 1]) / UNITS;
+  for (uint32_t i = m->count; i < PARTS; i++)
+    p[i] = 0;
+}
+
 // Of all visits of a cell: relative to its light, since eyes adapt.
 static bill bill_of(const school *s, uint32_t row, const outlook *o) {
-  double p[LIGHT_PARTS_MOST], asked = 0;
-  for (uint32_t i = 0; i < s->parts; i++) {
-    p[i] = (double)share_of(&s->m->cells[row], i);
-    asked += p[i];
-  }
-  double times = s->lore.visits[row] / (o->light * o->light);
+  float p[PARTS];
+  shares_of(s->m, &s->m->cells[row], p);
+  double light = (double)o->light, asked = (double)sum_of(p);
+  double times = s->lore.visits[row] / (light * light);
   if (!isfinite(times)) return (bill){0, 0};
-  finds with = finds_of(o, s->parts, p);
-  finds without = finds_of(o, s->parts, s->usual_share);
-  return (bill){times * with.variance * (1 + COST * asked),
-                times * without.variance * (1 + COST)};
+  finds with = finds_of(o, p), without = finds_of(o, s->usual_share);
+  double cost = (double)COST;
+  return (bill){times * (double)with.variance * (1 + cost * asked),
+                times * (double)without.variance * (1 + cost)};
 }
 
 static void conclude(void *context, size_t item, int worker) {
@@ -244,23 +266,23 @@ static double gain_of(const school *s) {
 }
 
 static void weigh_powers(school *s) {
-  double sum = 0, usual = 0;
-  for (uint32_t i = 0; i < s->parts; i++) {
-    sum += (double)s->m->power[i];
-    usual += (double)s->m->usual[i];
+  float sum = 0, usual = 0;
+  for (uint32_t i = 0; i < s->m->count; i++) {
+    sum += s->m->power[i];
+    usual += s->m->usual[i];
   }
-  for (uint32_t i = 0; i < s->parts; i++) {
-    s->share[i] = (double)s->m->power[i] / sum;
-    s->usual_share[i] = (double)s->m->usual[i] / usual;
+  for (uint32_t i = 0; i < s->m->count; i++) {
+    s->share[i] = s->m->power[i] / sum;
+    s->usual_share[i] = s->m->usual[i] / usual;
   }
 }
 
 double light_memory_learn(light_memory *m, const light_record *records,
                           size_t n, arena *mem, pool *threads) {
   arena scratch = {0};
-  school s = {.m = m, .parts = m->count};
+  school s = {.m = m};
   weigh_powers(&s);
-  s.lore = light_lore_of(records, n, s.share, s.parts, mem, &scratch);
+  s.lore = light_lore_of(records, n, s.share, mem, &scratch);
   s.bills = ARENA_NEW(&scratch, bill, s.lore.cells);
   s.usual = outlook_of(&s, 0).light;
   m->cell_of = s.lore.row_of[0];
