@@ -76,7 +76,9 @@ void pick_expect(const pick *p, float u) {
 }
 
 void pick_search(const pick *p, float u) {
-  __builtin_prefetch(&p->upto[p->guide[entry_of(p, unit_of(u))] + 1]);
+  const uint32_t *first = &p->upto[p->guide[entry_of(p, unit_of(u))] + 1];
+  __builtin_prefetch(first);
+  __builtin_prefetch(first + PICK_WIDE - 1);
 }
 
 // Four numbers in a register.
