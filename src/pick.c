@@ -13,8 +13,8 @@ enum { PICK_STRIDE = 4, PICK_WIDE = 8 };
 // Behind the last number come some that are never picked.
 void pick_new_all(pick *out, size_t count, arena *mem, uint32_t n) {
   size_t wide = (size_t)n + 1 + PICK_WIDE, guides = n / PICK_STRIDE + 2;
-  uint32_t *upto = ARENA_NEW(mem, uint32_t, count * wide);
-  uint32_t *guide = ARENA_NEW(mem, uint32_t, count * guides);
+  uint32_t *upto = ARENA_NEW(mem, uint32_t, count * (wide + guides));
+  uint32_t *guide = upto + count * wide;
   for (size_t k = 0; k < count; k++) {
     out[k] = (pick){upto + k * wide, guide + k * guides, n};
     for (uint32_t i = 1; i <= PICK_WIDE; i++)
