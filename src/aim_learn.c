@@ -8,10 +8,12 @@
 // Other numbers than those of the picture and of path_learn.
 #define OTHER_SEED UINT64_C(0x61696d)
 
-// Photons tried for each pixel, but no more than so many; the share of them
-// that is tried first, and how many of those must come down.
-enum { PHOTONS_PER_PIXEL = 2, MOST_PHOTONS = 1 << 18, FIRST_SHARE = 8 };
-enum { LEAST_PHOTONS = 64 };
+// Photons tried for each pixel, but no more than so many; and how many of those
+// that are tried first must come down.
+enum { PHOTONS_PER_PIXEL = 2, MOST_PHOTONS = 1 << 18, LEAST_PHOTONS = 64 };
+
+// The share that is tried first where there are enough, and else.
+enum { FIRST_SHARE = 16, FIRST_OF_FEW = 8, ENOUGH = 9000 };
 
 // Batches of paths that look how bright the picture is, and what it would gain.
 enum { LOOKS = 2 };
@@ -83,6 +85,12 @@ typedef struct study {
   pool *threads;
 } study;
 
+static size_t first_of(size_t tries) {
+  size_t few = tries / FIRST_OF_FEW;
+  if (few > ENOUGH) few = ENOUGH;
+  return tries / FIRST_SHARE > few ? tries / FIRST_SHARE : few;
+}
+
 static aim_map *map_of(const study *s, const aim_photons *photons, arena *mem) {
   const scene *of = s->by->world->scene;
   aim_map *m = ARENA_NEW(mem, aim_map, 1);
@@ -102,7 +110,7 @@ static bool pays(const study *s, const aim_map *map) {
 static const aim_map *study_all(const study *s, size_t tries, arena *mem,
                                 arena *scratch) {
   const uint64_t seed = s->by->seed ^ OTHER_SEED;
-  const size_t few = tries / FIRST_SHARE;
+  const size_t few = first_of(tries);
   const aim_tries first = {seed, 0, few}, rest = {seed, few, tries};
   aim_photons all = aim_photons_of(s->mirrors, &first, scratch, s->threads);
   if (all.count < LEAST_PHOTONS) return NULL;

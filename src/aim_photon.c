@@ -29,6 +29,7 @@ typedef struct flight {
   aim_photon at;
   ray ray;
   int inside, events;
+  vec3 across;  // a normal of the triangle where it began, of any length
   rng numbers;
 } flight;
 
@@ -39,6 +40,8 @@ typedef struct sky {
   ray rays[BATCH];
   hit hits[BATCH];
   bool blocked[BATCH];
+  light_question asked[BATCH];
+  light_sample light[BATCH];
 } sky;
 
 typedef struct flight_job {
@@ -120,48 +123,63 @@ static float begin(const flight_job *job, size_t i, flight *f) {
   return float_min(along, FLOAT_BELOW_1);
 }
 
-// A point of a mirror, chosen evenly, and light that arrives there on a lit
-// side, if the shadow ray meets nothing.
-static bool start(const flight_job *job, size_t i, flight *f, vertex *v,
-                  ray *shadow) {
+// A point of a mirror, chosen evenly, and what it asks of the lights.
+static void start(const flight_job *job, size_t i, flight *f, hit *at,
+                  light_question *q) {
   const aim_mirrors *by = job->by;
   const scene *s = by->world->scene;
   *f = (flight){.numbers = rng_of(job->tries.seed, job->tries.from + i, 0)};
   rng *n = &f->numbers;
   float u = begin(job, i, f), share;
   uint32_t t = by->triangles[pick_at(&by->by_area, &u, &share)];
-  hit at = {.b1 = rng_next(n), .b2 = rng_next(n), .triangle = t};
-  if (at.b1 + at.b2 > 1) at.b1 = 1 - at.b1, at.b2 = 1 - at.b2;
+  *at = (hit){.b1 = rng_next(n), .b2 = rng_next(n), .triangle = t};
+  if (at->b1 + at->b2 > 1) at->b1 = 1 - at->b1, at->b2 = 1 - at->b2;
   vec3 a = corner(s, t, 0), ab = vec3_sub(corner(s, t, 1), a);
   vec3 ac = vec3_sub(corner(s, t, 2), a);
-  vec3 y = vec3_mad(vec3_mad(a, at.b1, ab), at.b2, ac);
-  vec3 choice = {rng_next(n), rng_next(n), rng_next(n)};
-  light_sample l;
-  bool found = light_sample_at(by->lights, y, vec3_all(0), choice, &l);
-  if (!found || l.delta) return false;
-  f->at.behind = vec3_dot(vec3_cross(ab, ac), l.wi) < 0;
+  f->across = vec3_cross(ab, ac);
+  q->p = vec3_mad(vec3_mad(a, at->b1, ab), at->b2, ac);
+  q->n = vec3_all(0);
+  q->u = (vec3){rng_next(n), rng_next(n), rng_next(n)};
+}
+
+// Light that arrives there on a lit side, if the shadow ray meets nothing.
+static bool meet(const flight_job *job, const light_sample *l, const hit *at,
+                 flight *f, vertex *v, ray *shadow) {
+  const aim_mirrors *by = job->by;
+  if (!(l->pdf > 0) || l->delta) return false;
+  f->at.behind = vec3_dot(f->across, l->wi) < 0;
   if (!job->lit[f->at.stretch][f->at.behind]) return false;
-  f->ray.d = vec3_neg(l.wi);
-  *v = vertex_at(s, &at, f->ray.d);
-  light_ray to = {.is_point = l.has_end, .to = l.to, .wi = l.wi};
+  f->ray.d = vec3_neg(l->wi);
+  *v = vertex_at(by->world->scene, at, f->ray.d);
+  light_ray to = {.is_point = l->has_end, .to = l->to, .wi = l->wi};
   *shadow = light_ray_shadow(&to, &v->at, false);
-  f->at.radiance = light_mean(l.radiance);
-  f->at.power = f->at.radiance * fabsf(vec3_dot(v->ng, l.wi)) / l.pdf;
+  f->at.radiance = light_mean(l->radiance);
+  f->at.power = f->at.radiance * fabsf(vec3_dot(v->ng, l->wi)) / l->pdf;
   f->at.power *= (float)by->area;
   return true;
 }
 
-// Begin the tries of an item; how many are on their way from the first mirror.
+// Begin the tries of an item, which ask the lights together; how many are on
+// their way from the first mirror.
 static size_t start_all(const flight_job *job, size_t item, sky *room) {
   const path_world *w = job->by->world;
   size_t n = 0, next = 0, all = job->tries.to - job->tries.from;
-  for (size_t i = item * BATCH; i < (item + 1) * BATCH && i < all; i++)
-    n += start(job, i, &room->flights[n], &room->at[n], &room->rays[n]);
+  size_t first = item * BATCH, some = all - first < BATCH ? all - first : BATCH;
+  flight *f = room->flights;
+  for (size_t i = 0; i < some; i++)
+    start(job, first + i, &f[i], &room->hits[i], &room->asked[i]);
+  light_samples_at(job->by->lights, room->asked, some, room->light);
+  for (size_t i = 0; i < some; i++) {
+    if (!meet(job, &room->light[i], &room->hits[i], &f[i], &room->at[n],
+              &room->rays[n]))
+      continue;
+    f[n++] = f[i];
+  }
   tracer_any_many(&w->tracer, room->rays, room->blocked, n);
   for (size_t i = 0; i < n; i++) {
-    flight f = room->flights[i];
-    if (!room->blocked[i] && turn(w, &f, &room->at[i]) == FATE_ON)
-      room->flights[next++] = f;
+    flight one = f[i];
+    if (!room->blocked[i] && turn(w, &one, &room->at[i]) == FATE_ON)
+      f[next++] = one;
   }
   return next;
 }
