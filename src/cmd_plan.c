@@ -30,6 +30,7 @@ plan_request cmd_plan_request(const shot *s, bool path) {
       .lights = v[OPT_LIGHTS].words == 0,
       .shadows = v[OPT_SHADOWS].words == 0,
       .naive = v[OPT_INTEGRATOR].words == 1,
+      .learns = v[OPT_INTEGRATOR].words == 0,
       .each = v[OPT_SHADE].words == 1,
       .split = v[OPT_IBL].words == 1,
       .model = (pbr_model)v[OPT_PBR_MODEL].words,

@@ -39,8 +39,11 @@ void render_plan_note_paths(render_job *j) {
   p->of.before = j->keep.before;
   if (p->of.samples == 0) p->line[PLAN_PATHS].all = r->samples - p->of.before;
   plan_note(p, PLAN_LAMPS, j->shot.scene.light_count, -1, 0);
-  plan_note(p, PLAN_ENV_TABLE, e->columns != NULL, -1,
-            1.25 * sizeof(uint32_t) * e->map.width * e->map.height);
+  uint64_t tables =
+      (e->columns != NULL) + (uint64_t)(j->lights.whole.columns != NULL);
+  plan_note(p, PLAN_ENV_TABLE, tables, -1,
+            1.25 * sizeof(uint32_t) * e->map.width * e->map.height *
+                (double)tables);
   plan_note(p, PLAN_ASK, r->paths.asked, -1, 0);
   if (j->lights.memory != NULL)
     p->line[PLAN_ASK].why = j->lights.sky.count > 0

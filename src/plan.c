@@ -301,10 +301,11 @@ static void plan_lights_of_paths(plan *p) {
   env_kind kind = r->scene->env.kind;
   bool shown = shows_light(p), glow = glows(p);
   bool varies = (kind == ENV_SKY || kind == ENV_MAP) && !p->black && shown;
-  tell(p, PLAN_ENV_TABLE, varies && !r->naive, kind != ENV_NONE,
+  uint64_t tables = varies && !r->naive ? 1 + r->learns : 0;
+  tell(p, PLAN_ENV_TABLE, tables, tables > 1 ? tables : kind != ENV_NONE,
        !shown     ? "the picture shows no light"
        : r->naive ? "--integrator naive looks for no light"
-       : varies   ? "directions brighter than the mean"
+       : varies   ? "bright directions; and all, where paths remember"
                   : "nothing is brighter than the mean");
   p->line[PLAN_ENV_TABLE].at_most = true;
   bool any = shown && (glow || p->lamp_count > 0 || varies);

@@ -71,6 +71,7 @@ typedef struct plan_request {
   unsigned aovs;         // bits of render.h
   bool lights, shadows;  // flags of those names
   bool naive;            // paths that do not look for light
+  bool learns;           // paths that may remember what they see of the sky
   bool each;             // every triangle shaded where it is drawn
   bool split;            // lobes look along the mirror direction
   pbr_model model;

@@ -240,6 +240,9 @@ static void light_is_asked_for_where_it_helps(void **state) {
     assert_int_equal(plan_needs(&r, PLAN_SKY), false);
     w->scene.env = (env){.kind = ENV_SKY, .scale = 1};
     p = plan_of(w, (plan_request){.path = true, .max_depth = 3});
+    assert_int_equal(p.line[PLAN_ENV_TABLE].need, 1);
+    p = plan_of(w, (plan_request){.path = true, .learns = true});
+    assert_int_equal(p.line[PLAN_ENV_TABLE].need, 2);
     assert_true(plan_needs(&p, PLAN_PATHS) && !p.lamps_only);
     r = plan_of(w, (plan_request){.msaa = 4});
     assert_int_equal(plan_needs(&r, PLAN_IBL), dull);
