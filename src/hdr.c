@@ -184,17 +184,17 @@ static const char *hdr_old_row(uint8_t *row, int length, FILE *f) {
 static const char *hdr_new_row(uint8_t *row, int length, FILE *f) {
   for (int c = 0; c < 4; c++) {
     for (int at = 0; at < length;) {
-      int head = getc(f), value = 0;
+      int head = getc(f);
       if (head == EOF) return "the file ends early";
       bool run = head > 128;
       int n = run ? head - 128 : head;
       // A run of nothing would never end.
       if (n == 0 || n > length - at) return "a run leaves its scanline";
-      for (int i = 0; i < n; i++, at++) {
-        if (i == 0 || !run) value = getc(f);
-        if (value == EOF) return "the file ends early";
-        row[4 * at + c] = (uint8_t)value;
-      }
+      uint8_t value[128];
+      size_t values = run ? 1 : (size_t)n;
+      if (fread(value, 1, values, f) != values) return "the file ends early";
+      for (int i = 0; i < n; i++, at++)
+        row[4 * at + c] = value[run ? 0 : i];
     }
   }
   return NULL;
@@ -211,10 +211,21 @@ static const char *hdr_row(uint8_t *row, int length, FILE *f) {
   return hdr_new_row(row, length, f);
 }
 
+// What a mantissa's unit is worth, by the byte of the exponent.
+typedef struct hdr_units {
+  float of[256];
+} hdr_units;
+
+static hdr_units hdr_units_new(void) {
+  hdr_units u = {{0}};
+  for (int e = 1; e < 256; e++)
+    u.of[e] = ldexpf(1, e - EXPONENT_BIAS);
+  return u;
+}
+
 // Red, green and blue of one pixel with a shared exponent.
-static vec3 hdr_decode(const uint8_t *b) {
-  if (b[3] == 0) return (vec3){0, 0, 0};
-  float unit = ldexpf(1, b[3] - EXPONENT_BIAS);
+static vec3 hdr_decode(const hdr_units *u, const uint8_t *b) {
+  float unit = u->of[b[3]];
   return (vec3){(float)b[0] * unit, (float)b[1] * unit, (float)b[2] * unit};
 }
 
@@ -232,12 +243,13 @@ static image hdr_upright(const hdr_header *h, const uint8_t *rows, arena *mem) {
   int height = h->along_x ? h->count : h->length;
   vec3 scale = {(float)h->scale[0], (float)h->scale[1], (float)h->scale[2]};
   image im = image_new(mem, width, height);
+  const hdr_units units = hdr_units_new();
   for (int i = 0; i < h->count; i++)
     for (int j = 0; j < h->length; j++, rows += 4) {
       int x = h->along_x ? j : i, y = h->along_x ? i : j;
       if (h->flip_x) x = width - 1 - x;
       if (h->flip_y) y = height - 1 - y;
-      vec3 p = vec3_mul(hdr_decode(rows), scale);
+      vec3 p = vec3_mul(hdr_decode(&units, rows), scale);
       im.pixels[(size_t)y * (size_t)width + (size_t)x] =
           h->xyz ? rgb_of_xyz(p) : p;
     }

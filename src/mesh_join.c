@@ -142,14 +142,15 @@ bool mesh_join(mesh *out, const mesh *parts, size_t n, arena *mem, error *err) {
 }
 
 void mesh_extent(const mesh *m, vec3 *lo, vec3 *hi) {
-  *lo = vec3_all(INFINITY);
-  *hi = vec3_all(-INFINITY);
+  vec3 least = vec3_all(INFINITY), most = vec3_all(-INFINITY);
   for (size_t i = 0; i < 3 * m->triangle_count; i++) {
     vec3 p = m->positions[m->position_index[i]];
     if (!vec3_finite(p)) continue;
-    *lo = vec3_min(*lo, p);
-    *hi = vec3_max(*hi, p);
+    least = vec3_min(least, p);
+    most = vec3_max(most, p);
   }
+  *lo = least;
+  *hi = most;
 }
 
 // An edge by the places of its ends, the lesser first.

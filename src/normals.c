@@ -223,14 +223,22 @@ static void append_normals(mesh *m, const normals_job *job, arena *mem) {
   m->normal_count = old;
 }
 
-// Forget indices of normals that have no direction, new ones (from the given
-// number on) and old ones.
+static bool is_useless(vec3 n) {
+  bool zero = n.x == 0 && n.y == 0 && n.z == 0;
+  return zero || !vec3_finite(n);
+}
+
+// Forget indices of normals that have no direction, new ones and old ones.
+// Mostly there is none, and corners, six times as many, need not be asked.
 static void drop_useless(mesh *m) {
+  size_t good = 0;
+  while (good < m->normal_count && !is_useless(m->normals[good]))
+    good++;
+  if (good == m->normal_count) return;
   for (size_t c = 0; c < 3 * m->triangle_count; c++) {
     if (m->normal_index[c] == MESH_NONE) continue;
-    vec3 n = m->normals[m->normal_index[c]];
-    bool zero = n.x == 0 && n.y == 0 && n.z == 0;
-    if (zero || !vec3_finite(n)) m->normal_index[c] = MESH_NONE;
+    if (is_useless(m->normals[m->normal_index[c]]))
+      m->normal_index[c] = MESH_NONE;
   }
 }
 
