@@ -45,16 +45,21 @@ static int first_of(const cutter *c, int tile, int most) {
   return first < most ? first : most;
 }
 
-static lot tile_of(const cutter *c, int x, int y) {
+static double power_of(const cutter *c, int x, int y) {
   const light_env *e = c->env;
   int i0 = first_of(c, x, e->map.width), i1 = first_of(c, x + 1, e->map.width);
   int j1 = first_of(c, y + 1, e->map.height + 1);
-  lot l = {0};
+  double power = 0;
   for (int j = first_of(c, y, e->map.height + 1); j < j1; j++) {
     const uint32_t *upto = e->columns[j].upto;
-    l.power += (double)(e->rows.upto[j + 1] - e->rows.upto[j]) *
-               (double)(upto[i1] - upto[i0]);
+    power += (double)(e->rows.upto[j + 1] - e->rows.upto[j]) *
+             (double)(upto[i1] - upto[i0]);
   }
+  return power;
+}
+
+static lot tile_of(const cutter *c, int x, int y) {
+  lot l = {.power = power_of(c, x, y)};
   vec2 uv = {((float)x + 0.5f) / (float)c->across,
              ((float)y + 0.5f) / (float)c->down};
   vec3 d = env_direction(uv);
@@ -149,13 +154,17 @@ static void fill_part(const cutter *c, const block *b, light_sky_part *out,
   arena_free(&scratch);
 }
 
+static cutter cutter_of(const light_env *e) {
+  cutter c = {.env = e};
+  while ((e->map.width - 1) >> c.shift >= TILES ||
+         e->map.height >> c.shift >= 2 * TILES)
+    c.shift++;
+  c.across = ((e->map.width - 1) >> c.shift) + 1;
+  c.down = (e->map.height >> c.shift) + 1;
+  return c;
+}
+
 static void fill_tiles(cutter *c, arena *mem) {
-  const light_env *e = c->env;
-  while ((e->map.width - 1) >> c->shift >= TILES ||
-         e->map.height >> c->shift >= 2 * TILES)
-    c->shift++;
-  c->across = ((e->map.width - 1) >> c->shift) + 1;
-  c->down = (e->map.height >> c->shift) + 1;
   c->tiles = ARENA_NEW(mem, lot, (size_t)c->across * (size_t)c->down);
   for (int y = 0; y < c->down; y++)
     for (int x = 0; x < c->across; x++)
@@ -166,7 +175,7 @@ bool light_sky_of(light_sky *out, const light_env *of, uint32_t most,
                   arena *mem) {
   if (!(of->irradiance > 0)) return false;
   arena scratch = {0};
-  cutter c = {.env = of};
+  cutter c = cutter_of(of);
   fill_tiles(&c, &scratch);
   block blocks[LIGHT_PARTS_MOST];
   *out = (light_sky){.env = of, .shift = c.shift, .across = c.across};
@@ -188,17 +197,15 @@ bool light_sky_of(light_sky *out, const light_env *of, uint32_t most,
 }
 
 void light_sky_usual(const light_sky *s, const light_env *of, float *power) {
-  arena scratch = {0};
-  cutter c = {.env = of};
-  fill_tiles(&c, &scratch);
+  const cutter c = cutter_of(of);
   double sum[LIGHT_PARTS_MOST] = {0}, all = 0;
   for (int i = 0; i < c.across * c.down; i++) {
-    sum[s->part_of[i]] += c.tiles[i].power;
-    all += c.tiles[i].power;
+    double light = power_of(&c, i % c.across, i / c.across);
+    sum[s->part_of[i]] += light;
+    all += light;
   }
   for (uint32_t k = 0; k < s->count; k++)
     power[k] = (float)(sum[k] / all);
-  arena_free(&scratch);
 }
 
 // The unit that picks, of all columns of a row, what u picks of those of a
