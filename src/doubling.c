@@ -39,7 +39,7 @@ static void doubling_add(void *self, size_t i, uint32_t sample, vec3 color) {
   doubling *d = self;
   uint32_t n = d->all->count[i];
   if (n > 0 && (n & (n - 1)) == 0) {
-    d->marks.half[i] = d->marks.whole[i];
+    if (n > 1) d->marks.half[i] = d->marks.whole[i];
     d->marks.whole[i] = sum_of(d->all, i);
   }
   (void)sample, (void)color;

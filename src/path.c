@@ -103,12 +103,12 @@ static void ask_aims(wave *w, const stop *s, const bsdf *b) {
   p->trail = path_aims_ask(w->aims, &here, w->steps);
 }
 
-static float odds_of(const path *p) {
+static inline float odds_of(const path *p) {
   return roulette_odds(vec3_scale(p->throughput, p->scale), p->segment);
 }
 
 // Russian roulette.
-static bool survives(path *p, float u) {
+static inline bool survives(path *p, float u) {
   float q = odds_of(p);
   if (q >= 1) return true;
   if (u >= q) return false;
