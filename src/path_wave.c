@@ -95,14 +95,23 @@ static sampler_kind kind_of(const wave *w) {
   return even && kind == SAMPLER_SOBOL ? SAMPLER_TURNED : kind;
 }
 
+// A path that asks for lights has most of its light before it ends.  One that
+// only meets the sky has none, and is worth following as if it were brighter.
+#define SCALE_UNLIT 2.0f
+
+static float scale_of(const wave *w) {
+  return light_set_any(w->by->lights) ? 1 : SCALE_UNLIT;
+}
+
 // Where a path was last is told by its next direction.
-static inline void begin_path(wave *w, const path_start *starts, size_t i) {
+static inline void begin_path(wave *w, const path_start *starts, size_t i,
+                              float scale) {
   const path_start *s = &starts[i];
   path *p = &w->paths[i];
   p->sum = vec3_all(0);
   p->throughput = vec3_all(1);
   p->pdf = 0;
-  p->scale = 1;
+  p->scale = scale;
   p->segment = 1;
   p->inside = 0;
   p->trail = (path_trail){.cell = NULL};
@@ -116,15 +125,16 @@ void wave_begin(wave *w, const path_start *starts, size_t n) {
   const path_tracer *by = w->by;
   size_t done = 0, some;
   w->kind = kind_of(w);
+  float scale = scale_of(w);
   w->count = 0;
   w->steps = 0;
   while (w->shares == NULL && (some = together(starts + done, n - done)) > 0) {
     for (size_t k = 0; k < some; k++)
-      begin_path(w, starts, done + in_order(k, some));
+      begin_path(w, starts, done + in_order(k, some), scale);
     done += some;
   }
   for (; done < n; done++)
-    begin_path(w, starts, done);
+    begin_path(w, starts, done, scale);
   if (w->aims != NULL) path_aims_begin(w->aims, by->aim, by->world, by->gain);
 }
 
