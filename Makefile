@@ -60,7 +60,7 @@ CHAPTER_12 := $(CHAPTER_11) simd_base simd_avx2 simd simd_lanes simd_runs \
              build_lanes build_bins build_cut build_move build_split build_levels build_avx2 build bvh_split_clip bvh_split_bins bvh_split_part bvh_split wide_cost bvh_bundle bvh_shared \
              simd_squeeze wide_tree wide_faces wide_above wide_below wide_levels wide_box wide_columns wide_ready wide_packet wide_edges wide_tests wide_distance wide_leaf wide_single wide_push \
              wide_alike wide_gather wide_interval wide_packet_leaf \
-             wide_descent wide_flight wide_pending wide_steps wide_start wide_stream wide_crowd wide_crowd_ready wide_part wide_crowd_settle wide_crowd_leaf wide_together wide_kernel wide_base wide_avx2 wide_avx512 wide wide_patch \
+             wide_descent wide_flight wide_pending wide_steps wide_start wide_stream wide_crowd wide_crowd_ready wide_part wide_crowd_settle wide_crowd_leaf wide_together wide_few wide_few_ready wide_few_leaf wide_few_all wide_kernel wide_base wide_avx2 wide_avx512 wide wide_patch \
              vertex_lanes vertex_lanes_facet vertex_lanes_smooth vertex_lanes_find \
              ready_levels ready_work ready_numbers ready_starts ready_num ready_keys ready_leaf ready_pick ready_triangle ready_leave ready_clear \
              ready_sky ready_sky_kinds ready_sky_list ready_sky_way ready_sky_ask ready_sky_view ready_sky_rival ready_sky_look ready_lane ready_kernel ready_base ready_avx2 ready_avx512 ready

@@ -7,6 +7,7 @@
 #define WIDE_KERNEL_H
 
 #include "wide_below.h"
+#include "wide_few_all.h"
 #include "wide_single.h"
 #include "wide_together.h"
 
@@ -54,6 +55,10 @@ static void kernel_any_many(const void *tree, const ray *rays, bool *blocked,
   if (((const wide_tree *)tree)->depth > FLIGHT_DEPTH || n > UINT32_MAX) {
     for (size_t i = 0; i < n; i++)
       blocked[i] = kernel_any(tree, &rays[i]);
+    return;
+  }
+  if (is_few(tree)) {
+    few_run(tree, rays, blocked, n);
     return;
   }
   stream s;

@@ -140,6 +140,34 @@ static void try_points(void *context, size_t item, int worker) {
   try_many(&a, w);
 }
 
+// A point of a triangle, or nearly.
+static vec3 point_on(const grove *g, uint64_t *state) {
+  uint32_t t = (uint32_t)(shape_random(state) * (float)g->s.triangles);
+  const uint32_t *corner = &g->s.index[3 * t];
+  float b = shape_random(state), c = (1 - b) * shape_random(state);
+  vec3 p = vec3_scale(g->s.positions[corner[0]], 1 - b - c);
+  p = vec3_mad(p, b, g->s.positions[corner[1]]);
+  return vec3_mad(p, c, g->s.positions[corner[2]]);
+}
+
+// Shadow rays, from triangle to triangle, and others.
+static void try_shadows(void *context, size_t item, int worker) {
+  (void)worker;
+  wide_grove *w = context;
+  answers a;
+  uint64_t state = 733 * item + 11;
+  for (int i = 0; i < BATCH; i++) {
+    a.rays[i] = ray_near(&w->g, &state);
+    if (i % 3 == 0) continue;
+    ray *r = &a.rays[i];
+    if (i % 6 != 1) r->o = point_on(&w->g, &state);
+    r->d = vec3_sub(point_on(&w->g, &state), r->o);
+    r->tmin = 0;
+    r->tmax = i % 3 == 1 ? 1 - 0x1p-12f : 1;
+  }
+  try_many(&a, w);
+}
+
 static void wide_plant(wide_grove *w, shape s, arena *mem, bvh_method method) {
   *w = (wide_grove){0};
   grove_plant(&w->g, s, mem, method);
@@ -193,6 +221,35 @@ static void packets_equal_list(void **unused) {
 static void crowds_equal_list(void **unused) {
   (void)unused;
   try_batches(try_points);
+}
+
+// The same where there are few triangles, which go without a tree.
+static void few_equal_list(void **unused) {
+  (void)unused;
+  arena mem = {0};
+  pool *threads = pool_new(&mem, pool_default_threads());
+  const vec3 small = vec3_all(1e-4f), large = {1e4f, 300, 1e5f};
+  const vec3 far = {700, -20, 3}, zero = {0, 0, 0};
+  const shape all[] = {
+      shape_cubes(&mem, 1),
+      shape_flat(&mem, 4),
+      shape_soup(&mem, 5, 0.3f),
+      shape_soup(&mem, 60, 0.5f),
+      shape_soup(&mem, 64, 3),
+      shape_needles(&mem, 50, 1e-6f),
+      shape_moved(shape_soup(&mem, 30, 1), "small", small, zero),
+      shape_moved(shape_soup(&mem, 30, 1), "large", large, zero),
+      shape_moved(shape_cubes(&mem, 1), "far", vec3_all(1), far)};
+  for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+    wide_grove w;
+    wide_plant(&w, all[i], &mem, BVH_SAH);
+    assert_in_range(w.wide.triangle_count, 1, 64);
+    pool_run(threads, many(30000) / BATCH, try_shadows, &w);
+    if (w.g.wrong) print_message("# %s differs\n", w.g.s.name);
+    assert_int_equal(w.g.wrong, 0);
+  }
+  pool_free(threads);
+  arena_free(&mem);
 }
 
 // Slivers through the middle of space: a ray enters nearly all boxes, so that
@@ -361,6 +418,7 @@ int main(void) {
       cmocka_unit_test(wide_equals_list),
       cmocka_unit_test(packets_equal_list),
       cmocka_unit_test(crowds_equal_list),
+      cmocka_unit_test(few_equal_list),
       cmocka_unit_test(crowds_find_no_room),
       cmocka_unit_test(threads_do_not_matter),
       cmocka_unit_test(no_rays),
