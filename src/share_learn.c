@@ -83,13 +83,16 @@ static double price(const share_trial *t, int way, double bright) {
   return sum * rays / 2;
 }
 
+// Of two samples together.  Roots are averaged, for a lamp in the picture must
+// not make all else look dark.
 static double brightness(const share_trial *t) {
   double sum = 0;
   for (int way = 0; way < WAYS; way++)
     for (size_t i = 0; i < t->pixels; i++)
-      sum += (double)(light_mean(t->colors[way][0][i]) +
-                      light_mean(t->colors[way][1][i]));
-  return sum / (WAYS * (double)t->pixels);
+      for (int turn = 0; turn < TWICE; turn++)
+        sum += sqrt((double)light_mean(t->colors[way][turn][i]));
+  double root = sum / (WAYS * TWICE * (double)t->pixels);
+  return TWICE * root * root;
 }
 
 // How much less the price is of paths that share, by so many groups.

@@ -195,6 +195,8 @@ rule path "aimed rays" 0 -- shown.scene --spp 1 -- glow.scene --spp 4
 rule path "aimed rays" 0 -- shown.scene --spp 1 -- glass.scene --env 1,1,1 --spp 4
 rule path "shared finds" 0 -- shut.scene --spp 1 -- shut.scene --max-depth 2 --spp 4
 rule path "shared finds" 0 -- shut.scene --spp 1 -- day.scene --spp 4
+# A lamp in the picture is no reason not to.
+rule path "shared finds" 0 -- "$root/scenes/cornell.scene" --spp 1 -- day.scene --spp 4
 rule path "alpha tests" 0 -- lace.scene --spp 4 -- lit.scene --spp 4
 rule path segments 2 -- glow.scene --max-depth 3 --spp 1 -- lit.scene --max-depth 3 --spp 4
 rule path segments 2 -- glow.scene --max-depth 3 --spp 1 -- lace.scene --max-depth 3 --spp 4
