@@ -96,22 +96,23 @@ static void doubling_run(const void *self, size_t i, int n,
   }
 }
 
-// The rate r at which variance falls by doubling, if it always was the same,
-// after n samples.  V is the variance of one: of the mean of n, n^log2(r) V is
-// left, and so the samples differ by (1 - n^log2(r)) V n / (n - 1) only.  Of
-// that, `left` is what the last of k doublings took, r^(k-1) (1 - r) V. Limits:
-// r = 1/2 is chance, 1/8 is as smooth as it gets; two halves of one sample each
-// tell nothing of r.
-static double rate_of(double left, int k, double n) {
-  double low = k > 1 ? 0.125 : 0.5, high = 0.5;
-  for (int i = 0; i < 40; i++) {
-    double r = (low + high) / 2, differ = (1 - pow(n, log2(r))) * n / (n - 1);
-    if (pow(r, k - 1) * (1 - r) > left * differ)
-      high = r;
-    else
-      low = r;
+// The variance of the mean of n samples as a sum of two: A n^-1.5, which even
+// points leave where there is an edge in a plane (He and Wang, 2015), and B /
+// n, which is chance.  `took` is by how much it fell from m / 2 samples to m,
+// `differ` how much the n samples differ among each other, which lacks the
+// variance of their mean.  Two samples have one difference, and it is taken for
+// chance.
+static double variance_left(double took, double differ, double m, double n) {
+  double edge_took = pow(m / 2, -1.5) - pow(m, -1.5), chance_took = 1 / m;
+  double edge_differ = (1 - pow(n, -1.5)) * n / (n - 1);
+  double edge = 0, chance = took / chance_took;
+  if (m > 2) {
+    double both = chance_took * edge_differ - edge_took;
+    edge = (chance_took * differ - took) / both;
+    edge = fmin(fmax(edge, 0), took / edge_took);
+    chance = (took - edge * edge_took) / chance_took;
   }
-  return (low + high) / 2;
+  return edge * pow(n, -1.5) + chance / n;
 }
 
 static double doubling_error(void *self, pool *threads) {
@@ -120,15 +121,7 @@ static double doubling_error(void *self, pool *threads) {
   if (m < 2) return 0;
   two_means t = {d->all->width, d->all->height, d, doubling_run};
   two_means_sums s = two_means_measure(&t, NULL, threads);
-  if (!(s.other > 0)) return 0;
-  int k = 0;
-  while (1u << (k + 1) <= m)
-    k++;
-  double r = rate_of(s.square / s.other, k, n);
-  // E[((a - b) / 2)^2] = V(k-1) - V(k) = V(k) (1 - r) / r, and from there on to
-  // n samples.
-  double at_power = s.square * r / (1 - r);
-  return sqrt(at_power * pow((double)m / n, -log2(r)));
+  return sqrt(variance_left(s.square, s.other, m, n));
 }
 
 render_guide doubling_guide(doubling *d) {

@@ -4,7 +4,7 @@ each run printed with how far its picture is from the truth.
 
     tests/bench/calibration.py [--seeds 50] [--first-seed 0] [--size 96x60]
         [--facet build/facet] [--scenes cornell,...]
-        [--settings "--error 0.1;--spp 64;..."] [--truth SPP]
+        [--settings "--error 0.1;--spp 64;..."] [--truth SPP] [--folder scenes]
 
 The truth is the mean of all other seeds' pictures at all settings, weighted by
 their samples; what it lacks itself is subtracted.  --truth takes a picture of
@@ -35,7 +35,7 @@ def read_pfm(path):
 
 
 def render(a, scene, setting, seed, out):
-    command = [a.facet, "render", f"scenes/{scene}.scene", "--engine", "path", "-r", a.size,
+    command = [a.facet, "render", f"{a.folder}/{scene}.scene", "--engine", "path", "-r", a.size,
                "--seed", str(seed), "-o", out, "-q", "--json"] + setting.split()
     j = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
     return read_pfm(out), j
@@ -52,6 +52,7 @@ def main():
     p.add_argument("--size", default="96x60")
     p.add_argument("--facet", default="build/facet")
     p.add_argument("--scenes", default=SCENES)
+    p.add_argument("--folder", default="scenes")
     p.add_argument("--settings", default=SETTINGS)
     p.add_argument("--truth", type=int)
     a = p.parse_args()
